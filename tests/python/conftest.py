@@ -33,6 +33,7 @@ def _path(variable):
 
 def pytest_configure(config):
     config.addinivalue_line("markers", "long: runs in `cargo xtask test --long` alone")
+    config.addinivalue_line("markers", "written: holds passages of guide and README, which `bless guide` writes anew")
     config.addinivalue_line("markers", "rebuilds: of these, builds and packs anew what the others read")
 
 

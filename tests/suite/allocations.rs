@@ -29,9 +29,9 @@ impl Client {
         };
         Self {
             scenario,
-            reals: (reals.clone(), vec![0.0; reals.len()]),
-            integers: (integers.clone(), vec![0; integers.len()]),
-            booleans: (booleans.clone(), vec![0; booleans.len()]),
+            reals: (reals.to_vec(), vec![0.0; reals.len()]),
+            integers: (integers.to_vec(), vec![0; integers.len()]),
+            booleans: (booleans.to_vec(), vec![0; booleans.len()]),
             torque: names.vector("torque.applied"),
             moved: moved.iter().map(|name| names.real(name)).collect(),
             switched: names.typed(BaseType::Boolean, switched),
@@ -260,7 +260,7 @@ fn predictions_allocate_nothing() {
 #[test]
 fn placing_allocates_nothing() {
     let mut simulation = Simulation::new(Scenario::Placed);
-    let names = &simulation.names;
+    let names = simulation.names.clone();
     let (reals, booleans) = (names.all(BaseType::Real), names.all(BaseType::Boolean));
     let integers = names.all(BaseType::Integer);
     let planet = names.vector::<3>("planet.positionBody");

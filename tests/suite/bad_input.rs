@@ -167,11 +167,11 @@ fn nan_and_infinity_are_discarded_and_the_instance_stays_usable() {
 fn a_step_past_the_stop_time_is_an_error() {
     let (mut instance, names) = running();
     ok(instance.do_step(600.0, 5_400.0));
-    let before = real_bits(&mut instance, &names.all(BaseType::Real));
+    let before = real_bits(&mut instance, names.all(BaseType::Real));
     assert_eq!(instance.do_step(6_000.0, 600.0), Status::Error);
     contains(&text(&instance.drain_messages()), &["6600.0", "6000.0", "stop"]);
     // Not carried out at all; Reset brings the instance back.
-    assert_eq!(real_bits(&mut instance, &names.all(BaseType::Real)), before);
+    assert_eq!(real_bits(&mut instance, names.all(BaseType::Real)), before);
     ok(instance.reset());
     ok(instance.start(0.0, None));
     ok(instance.do_step(0.0, 6_600.0));
@@ -181,10 +181,10 @@ fn a_step_past_the_stop_time_is_an_error() {
 fn an_unknown_reference_in_a_vector_writes_nothing() {
     let (mut instance, names) = running();
     let torque = names.vector::<3>("torque.applied");
-    let before = real_bits(&mut instance, &names.all(BaseType::Real));
+    let before = real_bits(&mut instance, names.all(BaseType::Real));
     assert_eq!(instance.set_real(&[torque[0], 4_000_000, torque[2]], &[1.0, 2.0, 3.0]), Status::Error);
     contains(&text(&instance.drain_messages()), &["4000000"]);
-    assert_eq!(real_bits(&mut instance, &names.all(BaseType::Real)), before);
+    assert_eq!(real_bits(&mut instance, names.all(BaseType::Real)), before);
     let mut values = [0.0; 2];
     assert_eq!(instance.get_real(&[torque[0], u32::MAX], &mut values), Status::Error);
     contains(&text(&instance.drain_messages()), &["4294967295"]);

@@ -178,9 +178,9 @@ impl Target {
         // What is well formed may still be nonsense: any status, but an answer, and soon.
         let (_, time_s) = self.instance.last_successful_time();
         let mut reals = vec![0.0; self.names.all(BaseType::Real).len()];
-        let _ = self.instance.get_real(&self.names.all(BaseType::Real), &mut reals);
+        let _ = self.instance.get_real(self.names.all(BaseType::Real), &mut reals);
         let _ = self.instance.do_step(time_s, 60.0);
-        let _ = self.instance.get_real(&self.names.all(BaseType::Real), &mut reals);
+        let _ = self.instance.get_real(self.names.all(BaseType::Real), &mut reals);
         let _ = self.instance.state_bytes();
     }
 

@@ -4,13 +4,15 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use client::{InProcess, StatePointer, short_or_long};
+use client::{InProcess, Names, StatePointer, short_or_long};
 use model_description::{
     BaseType, Causality, Description, ScalarVariable, SimpleTypeKind, Status, Variability, VariableKind,
 };
 
 use crate::scenarios::{Scenario, Simulation};
-use crate::support::{self, RandomNumbers, everything, fresh, in_a_process_of_its_own, names, ok, silent};
+use crate::support::{
+    self, Everything, RandomNumbers, everything, fresh, in_a_process_of_its_own, names, ok, silent,
+};
 
 const POINTS: usize = 12;
 const STEPS: u64 = 50;
@@ -238,12 +240,15 @@ impl Given {
     }
 }
 
-/// Outcome of each of two steps, with all that a master can see after one that went well.
-fn two_steps(instance: &mut InProcess, scenario: Scenario, place: SavedPoint) -> [(Status, String); 2] {
-    let (names, step_s) = (names(scenario.model()), scenario.steps_s()[0]);
-    [0.0, 1.0].map(|k| match instance.do_step(place.time_s + k * step_s, step_s) {
-        Status::Ok => (Status::Ok, format!("{:?}", everything(instance, &names))),
-        other => (other, String::new()),
+/// Outcome of each of two steps from `place` on, with all that a master can see after one that went well.
+fn two_steps(
+    instance: &mut InProcess,
+    (names, step_s): (&Names, f64),
+    place: SavedPoint,
+) -> [(Status, Option<Everything>); 2] {
+    [0.0, 1.0].map(|k| {
+        let status = instance.do_step(place.time_s + k * step_s, step_s);
+        (status, (status == Status::Ok).then(|| everything(instance, names)))
     })
 }
 
@@ -255,6 +260,8 @@ fn a_change_next_to_a_restore_acts_as_in_a_simulation_never_saved() {
         let model = scenario.model();
         let description = support::description(model);
         let mut simulation = Simulation::new(scenario);
+        let (names, step_s) = (simulation.names.clone(), scenario.steps_s()[0]);
+        let two_steps = |instance: &mut InProcess, place| two_steps(instance, (&names, step_s), place);
         simulation.begin_again(STEPS_BEFORE);
         let bytes = simulation.bytes();
         let place = SavedPoint { step_number: simulation.step_number, time_s: simulation.time_s };
@@ -272,12 +279,12 @@ fn a_change_next_to_a_restore_acts_as_in_a_simulation_never_saved() {
                 let changed_bytes = simulation.bytes();
                 simulation.begin_again(STEPS_BEFORE);
                 given.set(&mut simulation.instance, reference);
-                let straight = two_steps(&mut simulation.instance, scenario, place);
+                let straight = two_steps(&mut simulation.instance, place);
                 let mut set_after = restored(anew(elsewhere), &bytes);
                 given.set(&mut set_after, reference);
-                let after = two_steps(&mut set_after, scenario, place);
+                let after = two_steps(&mut set_after, place);
                 let mut set_before = restored(anew(set_after), &changed_bytes);
-                let before = two_steps(&mut set_before, scenario, place);
+                let before = two_steps(&mut set_before, place);
                 let name = &variable.name;
                 assert!(after == straight, "{scenario:?}: {name} = {given:?} after the restore");
                 assert!(before == straight, "{scenario:?}: {name} = {given:?} before it was saved");

@@ -91,18 +91,18 @@ pub(crate) fn real_bits(instance: &mut InProcess, references: &[u32]) -> Vec<u64
     values.into_iter().map(f64::to_bits).collect()
 }
 
+/// Bits of Reals, Integers, Booleans, Strings.
+pub(crate) type Everything = (Vec<u64>, Vec<i32>, Vec<i32>, Vec<String>);
+
 /// All that a master can see: Reals by their bits, Integers, Booleans and Strings.
-pub(crate) fn everything(
-    instance: &mut InProcess,
-    names: &Names,
-) -> (Vec<u64>, Vec<i32>, Vec<i32>, Vec<String>) {
+pub(crate) fn everything(instance: &mut InProcess, names: &Names) -> Everything {
     let (integers, booleans) = (names.all(BaseType::Integer), names.all(BaseType::Boolean));
     let (mut integer_values, mut boolean_values) = (vec![0; integers.len()], vec![0; booleans.len()]);
     ok(instance.get_integer(&integers, &mut integer_values));
     ok(instance.get_boolean(&booleans, &mut boolean_values));
-    let (status, texts) = instance.get_string(&names.all(BaseType::String));
+    let (status, texts) = instance.get_string(names.all(BaseType::String));
     ok(status);
-    (real_bits(instance, &names.all(BaseType::Real)), integer_values, boolean_values, texts)
+    (real_bits(instance, names.all(BaseType::Real)), integer_values, boolean_values, texts)
 }
 
 /// Pseudo-random numbers, the same in every run: a Weyl sequence through an avalanche (splitmix64).

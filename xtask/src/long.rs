@@ -25,7 +25,7 @@ const FAILING: &[(&str, &str)] =
 /// Allocations per model that fail in turn, evenly spread.
 const ALLOCATIONS: &str = "300";
 /// Number of writes after which a command that still fails on a full disk counts as one that never succeeds.
-const MOST_WRITES: u32 = 2_000;
+const MAX_WRITES: u32 = 2_000;
 
 type Part = (&'static str, fn() -> Outcome);
 
@@ -271,7 +271,7 @@ fn on_a_full_disk(
     let target = target_folder.join(file);
     let named = format!("heliotorque {} {option} {file}", arguments[0]);
     let at_target = |error: std::io::Error| format!("{}: {error}", target_folder.display());
-    for write in 1..=MOST_WRITES {
+    for write in 1..=MAX_WRITES {
         for folder in [&target_folder, &unpacked] {
             if folder.exists() {
                 fs::remove_dir_all(folder).map_err(at_target)?;
@@ -317,5 +317,5 @@ fn on_a_full_disk(
             return fault(&format!("it left {}", left.display()));
         }
     }
-    Err(format!("{named}: still fails with {MOST_WRITES} writes"))
+    Err(format!("{named}: still fails with {MAX_WRITES} writes"))
 }

@@ -22,7 +22,7 @@ const RECORDED: &[(&str, Option<&str>, Option<&str>)] = &[
     ("schema", Some("in_step"), None),
     ("mistakes", Some("mistakes::"), None),
     ("legs", Some("the_shipped_missions_are_those_of_their_legs"), None),
-    ("guide", None, Some("prints_what or follow_the_schemas")),
+    ("guide", None, Some("prints_what or follow_the_schemas or written")),
 ];
 
 /// A program with tests, and the folder of its crate.

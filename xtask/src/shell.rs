@@ -1,7 +1,7 @@
 //! Running programs: what is run is shown, a failure names it.
 
 use std::ffi::OsStr;
-use std::io::{Read, Write};
+use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Instant;
@@ -56,27 +56,39 @@ pub(crate) fn run(command: &mut Command) -> Outcome {
     ended(&shown, start, &mut child)
 }
 
-/// Runs tests to the end and expects success; passes their output on and counts the times in it.
-pub(crate) fn run_tests(command: &mut Command) -> Outcome {
-    let shown = show(command);
-    eprintln!("+ {shown}");
+/// Time at which the output of tests is shown.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Echo {
+    /// Line by line.
+    AsItComes,
+    /// All at once, as others run at the same time.
+    AtTheEnd,
+}
+
+/// Runs tests to the end and expects success; shows their output and counts the times in it.
+pub(crate) fn run_tests(command: &mut Command, echo: Echo) -> Outcome {
+    let named = show(command);
+    eprintln!("+ {named}");
     let start = Instant::now();
     let spawned = command.stdout(Stdio::piped()).spawn();
-    let mut child = spawned.map_err(|error| format!("cannot start `{shown}`: {error}"))?;
+    let mut child = spawned.map_err(|error| format!("cannot start `{named}`: {error}"))?;
     let mut printed = Vec::new();
-    if let Some(mut output) = child.stdout.take() {
-        let mut buffer = [0; 4096];
-        while let Ok(count @ 1..) = output.read(&mut buffer) {
-            printed.extend_from_slice(&buffer[..count]);
-            let mut stdout = std::io::stdout();
-            stdout
-                .write_all(&buffer[..count])
-                .and_then(|()| stdout.flush())
-                .map_err(|error| error.to_string())?;
+    let print = |bytes: &[u8]| std::io::stdout().write_all(bytes).map_err(|error| error.to_string());
+    if let Some(output) = child.stdout.take() {
+        let mut lines = BufReader::new(output);
+        let mut line = Vec::new();
+        while lines.read_until(b'\n', &mut line).is_ok_and(|count| count > 0) {
+            if echo == Echo::AsItComes {
+                print(&line)?;
+            }
+            printed.append(&mut line);
         }
     }
+    if echo == Echo::AtTheEnd {
+        print(&printed)?;
+    }
     timing::add_tests(&String::from_utf8_lossy(&printed));
-    ended(&shown, start, &mut child)
+    ended(&named, start, &mut child)
 }
 
 /// Waits for the end of a command; counts its times, prints a duration from 5 s on, reports its failure.

@@ -2,9 +2,10 @@
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use std::thread::ScopedJoinHandle;
 
 use crate::build::{self, Built, TESTS};
-use crate::shell::{Outcome, cargo, command, need, root, run, run_tests};
+use crate::shell::{Echo, Outcome, cargo, command, need, root, run, run_tests};
 use crate::{dist, guide, locale, python};
 
 /// Seed of the property tests: the same draws in every run, so that what turns red was changed; set it for others.
@@ -20,16 +21,18 @@ pub(crate) fn all() -> Outcome {
     dist::pack_all(&built)?;
     let environment = environment(&built)?;
     let locale = locale::environment()?;
-    let in_rust = std::thread::scope(|scope| {
-        // The client waits for one core, as some of the tests do.
+    let outcomes = std::thread::scope(|scope| {
+        // Each of the three has tests that wait for one core.
         let client = scope.spawn(|| c_client(&built, false));
-        let tests = run_tests(
-            timed_tests(&format!("--no-fail-fast --tests {TESTS}")).envs(environment.clone()).envs(locale),
-        );
-        [client.join().unwrap_or_else(|_| Err("the thread of the C client panicked".to_owned())), tests]
+        let in_python = scope.spawn(|| python(environment.clone(), "not long"));
+        let mut in_rust = timed_tests(&format!("--no-fail-fast --tests {TESTS}"));
+        let in_rust = run_tests(in_rust.envs(environment.clone()).envs(locale), Echo::AsItComes);
+        let ended = |thread: ScopedJoinHandle<'_, Outcome>, of: &str| {
+            thread.join().unwrap_or_else(|_| Err(format!("the thread of {of} panicked")))
+        };
+        [in_rust, ended(client, "the C client"), ended(in_python, "the tests in Python")]
     });
-    let outcomes = in_rust.into_iter().chain([python(environment, "not long")]);
-    let failures: Vec<String> = outcomes.filter_map(Outcome::err).collect();
+    let failures: Vec<String> = outcomes.into_iter().filter_map(Outcome::err).collect();
     if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
 }
 
@@ -81,9 +84,9 @@ pub(crate) fn print_environment() -> Outcome {
 pub(crate) fn python(environment: Vec<(&'static str, PathBuf)>, mark: &str) -> Outcome {
     let processes = ["--numprocesses=auto", "--maxprocesses=4", "--dist=loadgroup"];
     let times = ["--durations=10", "--durations-min=1"];
-    run_tests(
-        python::pytest()?.args(processes).args(times).args(["-m", mark, "tests/python"]).envs(environment),
-    )
+    let mut tests = python::pytest()?;
+    tests.args(processes).args(times).args(["-m", mark, "tests/python"]).envs(environment);
+    run_tests(&mut tests, Echo::AtTheEnd)
 }
 
 /// Runs the tests of one file in Python, with more in the environment.

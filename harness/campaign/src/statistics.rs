@@ -1,4 +1,4 @@
-//! What is kept of time series.
+//! Statistics of time series.
 
 /// Shares in percent that are kept of many runs.
 pub const PERCENTILES: [f64; 7] = [1.0, 5.0, 25.0, 50.0, 75.0, 95.0, 99.0];

@@ -121,7 +121,7 @@ pub(crate) fn run() -> Outcome {
     }
 }
 
-/// What a command that loads a library in its own process may take; no FMU's code runs in the program's own.
+/// Returns the limits of a command that loads a library in its own process; no FMU's code runs in the program's own.
 fn loading(command: &Command) -> Option<Relayed> {
     let shown = |path: &Path| path.display().to_string();
     let of_template =

@@ -9,7 +9,7 @@ pub fn is_drawable(value: f64) -> bool {
 }
 
 /// Multiples drawn at most.
-const MOST_TICKS: i64 = 100;
+const MAX_TICKS: i64 = 100;
 
 /// The least round number (1, 2 or 5 times a power of ten) that is not below a value above 0.
 pub fn round_up(value: f64) -> f64 {
@@ -27,7 +27,7 @@ pub fn ticks([low, high]: [f64; 2], step: f64) -> Vec<f64> {
         return Vec::new();
     }
     let (first, last) = ((low / step - 1e-9).ceil() as i64, (high / step + 1e-9).floor() as i64);
-    (first..=last.min(first.saturating_add(MOST_TICKS))).map(|k| k as f64 * step).collect()
+    (first..=last.min(first.saturating_add(MAX_TICKS))).map(|k| k as f64 * step).collect()
 }
 
 /// The text of a multiple of a step, with as many digits as the step needs.

@@ -10,7 +10,7 @@ const ON_PLANE: f64 = 1e-6;
 /// A point of the picture plane: to the right and up, in m at the target's depth.
 pub(crate) type Flat = (f64, f64);
 
-/// Where one looks from.
+/// Viewpoint of a picture: its axes, the direction to the viewer, the target.
 pub struct Camera {
     right: Vector,
     up: Vector,
@@ -32,7 +32,7 @@ impl Camera {
         Some(Self { right, up, viewer, target_m, eye_m, tolerance_m: ON_PLANE * across_m })
     }
 
-    /// Where a point is seen.
+    /// Returns the position of a point in the picture.
     pub fn flat(&self, point_m: Vector) -> Flat {
         let from_target = point_m - self.target_m;
         let nearer = self.eye_m.map_or(1.0, |eye_m| eye_m / (eye_m - from_target.dot(&self.viewer)));
@@ -77,11 +77,11 @@ impl Camera {
     /// Indices of the surfaces from the farthest to the nearest. Where planes separate a pair that may overlap, they decide
     /// (Newell, Newell and Sancha 1972); else the depth of the centres. Surfaces that cross are not cut.
     pub fn painting_order(&self, surfaces: &[Surface]) -> Vec<usize> {
-        const MOST_COMPARED: usize = 1500;
+        const MAX_COMPARED: usize = 1500;
         let depths: Vec<f64> = surfaces.iter().map(|surface| self.depth_m(surface.center)).collect();
         let mut waiting: Vec<usize> = (0..surfaces.len()).collect();
         waiting.sort_by(|a, b| depths[*a].total_cmp(&depths[*b]));
-        if surfaces.len() > MOST_COMPARED {
+        if surfaces.len() > MAX_COMPARED {
             return waiting;
         }
         let boxes: Vec<[Flat; 2]> = surfaces.iter().map(|surface| self.around(surface)).collect();

@@ -17,7 +17,7 @@ const SINGLE_HEIGHT: f64 = 420.0;
 const TOP: f64 = 14.0;
 const MARGIN: f64 = 8.0;
 const PLOT_WIDTH: f64 = WIDTH - PLOT_LEFT - RIGHT;
-/// Columns of half a pixel, in each of which a line keeps what is visible.
+/// Number of columns, half a pixel wide; a line keeps its visible points in each.
 const COLUMNS: f64 = 2.0 * PLOT_WIDTH;
 
 /// Dots from which on those that others hide are left out, and their distance in px.
@@ -33,7 +33,7 @@ pub struct Chart {
     pub x_label: String,
     /// The panels, top to bottom.
     pub panels: Vec<Panel>,
-    /// What the lines of the same place in all panels without labels are, beside the title.
+    /// Labels of the lines by their position, for all panels without labels of their own; drawn at the title.
     pub legend: Vec<String>,
     /// Places of the horizontal axis with their names, such as dates, in place of numbers; empty: numbers.
     pub x_names: Vec<(f64, String)>,
@@ -83,10 +83,10 @@ impl Chart {
     fn legends(&self) -> Vec<Legend<'_>> {
         let with_band = self.panels.iter().position(|panel| panel.series.iter().any(Series::has_band));
         let panels = self.panels.iter().enumerate();
-        panels.map(|(index, panel)| Legend::of(panel, with_band == Some(index))).collect()
+        panels.map(|(index, panel)| Legend::new(panel, with_band == Some(index))).collect()
     }
 
-    /// Of the lines of a panel with one row of legend.
+    /// Height of the lines of a panel with one row of legend.
     fn panel_height(&self) -> f64 {
         if self.panels.len() == 1 { SINGLE_HEIGHT } else { PANEL_HEIGHT }
     }
@@ -219,7 +219,7 @@ pub(super) fn draw_series(
             let points = if mark == Mark::Steps { &corners } else { &series.points };
             let (mut lines, mut edges) = (Vec::new(), Vec::new());
             for piece in pieces(points) {
-                match envelope::of(piece).filter(|_| mark == Mark::Line) {
+                match envelope::envelope(piece).filter(|_| mark == Mark::Line) {
                     Some(band) => {
                         pen.polygon(&place(band.outline()), &filled(0.25));
                         edges.extend([band.lowest, band.greatest].map(place));

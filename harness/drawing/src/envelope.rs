@@ -8,7 +8,7 @@ const REVERSALS_PER_COLUMN: usize = 3;
 const POINTS_PER_REVERSAL: usize = 2;
 /// Part of the panel's height that the band has at least on average; a ripple on something slower stays a line.
 const HEIGHT: f64 = 0.2;
-/// Reversals in the window that a mean is taken over: some ten oscillations, of which the window leaves 1e-3.
+/// Reversals in the window that a mean is taken over: some ten oscillations, which the window damps to 1e-3.
 const REVERSALS_OF_MEAN: f64 = 20.0;
 /// Widest window as part of the line, and points of a mean.
 const WIDEST: f64 = 1.0 / 12.0;
@@ -51,7 +51,7 @@ impl Envelope {
 }
 
 /// The envelope of a line that swings up and down several times in each column; `None` for any other.
-pub(super) fn of(points: &[(f64, f64)]) -> Option<Envelope> {
+pub(super) fn envelope(points: &[(f64, f64)]) -> Option<Envelope> {
     COLUMNS.into_iter().find_map(|columns| over(points, columns))
 }
 
@@ -120,16 +120,16 @@ mod tests {
 
     #[test]
     fn a_decaying_oscillation_is_drawn_by_its_extremes() {
-        let envelope = of(&line(100_000, |x| (-x).exp() * (1e4 * x).sin())).unwrap();
-        for &(x, greatest) in &envelope.greatest {
+        let drawn = envelope(&line(100_000, |x| (-x).exp() * (1e4 * x).sin())).unwrap();
+        for &(x, greatest) in &drawn.greatest {
             assert!((greatest / (-x).exp() - 1.0).abs() < 0.01, "{x}: {greatest}");
         }
-        for &(x, lowest) in &envelope.lowest {
+        for &(x, lowest) in &drawn.lowest {
             assert!((lowest / (-x).exp() + 1.0).abs() < 0.01, "{x}: {lowest}");
         }
-        assert_eq!(envelope.outline().len(), 2 * envelope.lowest.len());
+        assert_eq!(drawn.outline().len(), 2 * drawn.lowest.len());
         // Two hundred orbits in as many hundredths of a panel.
-        let slow = of(&line(2_000, |x| (std::f64::consts::TAU * 200.0 * x).sin())).unwrap();
+        let slow = envelope(&line(2_000, |x| (std::f64::consts::TAU * 200.0 * x).sin())).unwrap();
         assert!(slow.greatest.iter().all(|(_, y)| (0.9..=1.0).contains(y)), "{slow:?}");
     }
 
@@ -147,11 +147,11 @@ mod tests {
 
     #[test]
     fn what_can_be_reported_apart_stays_a_line() {
-        assert_eq!(of(&line(100_000, |x| (50.0 * x).sin())), None);
-        assert_eq!(of(&line(1_000, |x| (1e4 * x).sin())), None);
-        assert_eq!(of(&line(2_000, |x| 5.0 * x + 0.1 * (1200.0 * x).sin())), None);
+        assert_eq!(envelope(&line(100_000, |x| (50.0 * x).sin())), None);
+        assert_eq!(envelope(&line(1_000, |x| (1e4 * x).sin())), None);
+        assert_eq!(envelope(&line(2_000, |x| 5.0 * x + 0.1 * (1200.0 * x).sin())), None);
         let burst = |x: f64| if (0.4..0.6).contains(&x) { (1e4 * x).sin() } else { x };
-        assert_eq!(of(&line(100_000, burst)), None);
-        assert_eq!(of(&[]), None);
+        assert_eq!(envelope(&line(100_000, burst)), None);
+        assert_eq!(envelope(&[]), None);
     }
 }

@@ -34,7 +34,7 @@ pub struct Frame {
     pub y: [f64; 2],
 }
 
-/// What the axes of a frame say.
+/// Labels of the axes of a frame.
 #[derive(Default)]
 pub struct Axes<'a> {
     /// Labels of the horizontal and the vertical axis; without the first, its ticks have no numbers.
@@ -73,7 +73,7 @@ impl Axes<'_> {
 }
 
 impl Frame {
-    /// Where a point is on the sheet.
+    /// Returns the position of a point on the sheet.
     pub fn at(&self, [x, y]: [f64; 2]) -> Pixel {
         let part = |value: f64, [low, high]: [f64; 2]| (value - low) / (high - low);
         let (x, y) =

@@ -1,4 +1,4 @@
-//! Where names stand in a picture, so that none covers another.
+//! Positions of names in a picture, so that none covers another.
 
 use super::pen::{Pixel, width_px};
 
@@ -32,7 +32,7 @@ impl Area {
     }
 }
 
-/// What is taken so far.
+/// Areas that are occupied.
 #[derive(Default)]
 pub struct Labels(Vec<Area>);
 

@@ -14,7 +14,7 @@ const SWATCH: f64 = 18.0;
 const GAP: f64 = 6.0;
 const BETWEEN: f64 = 20.0;
 
-/// What stands before a label.
+/// Symbol before a label.
 #[derive(Clone, Copy)]
 enum Swatch {
     /// A series by its place and how it is drawn.
@@ -25,11 +25,11 @@ enum Swatch {
     Shades,
     /// The extremes of an oscillation.
     Band,
-    /// A range about a series by the series' place, on so many wider ones.
+    /// A range about a series: index of the series, number of wider ranges beneath it.
     Range(usize, usize),
 }
 
-/// What a band is.
+/// Label of a band.
 const BAND: &str = "range and mean of an oscillation";
 
 /// Labels with what stands before them, row by row, and what stands at the left of the first.
@@ -39,20 +39,20 @@ pub(super) struct Legend<'a> {
 }
 
 impl<'a> Legend<'a> {
-    /// Of a panel's lines, marks and shades, and of its bands where they are to be named.
-    pub(crate) fn of(panel: &'a Panel, names_bands: bool) -> Self {
+    /// Legend of a panel's lines, marks and shades, and of its bands where they are to be named.
+    pub(crate) fn new(panel: &'a Panel, names_bands: bool) -> Self {
         let marks = (Swatch::Marks, panel.mark_label.as_str());
         let shades = (Swatch::Shades, panel.shade_label.as_str());
         let band = names_bands.then_some((Swatch::Band, BAND));
         Self::rows(&panel.title, series(&panel.series).chain([marks, shades]).chain(band))
     }
 
-    /// Of lines alone.
+    /// Legend of lines alone.
     pub(crate) fn of_series(all: &'a [Series]) -> Self {
         Self::rows("", series(all))
     }
 
-    /// Of lines of these names in the order of colours.
+    /// Legend of lines of these names in the order of colours.
     pub(crate) fn of_names(names: &'a [String]) -> Self {
         let lines = names.iter().enumerate();
         Self::rows("", lines.map(|(k, name)| (Swatch::Series(k, Mark::Line), name.as_str())))
@@ -107,7 +107,7 @@ fn series(all: &[Series]) -> impl Iterator<Item = (Swatch, &str)> {
     })
 }
 
-/// Of an entry with the space to the next one.
+/// Width of an entry with the space to the next one.
 fn width(label: &str) -> f64 {
     SWATCH + GAP + width_px(label, SIZE) + BETWEEN
 }
@@ -164,7 +164,7 @@ mod tests {
     fn long_legends_take_several_rows() {
         let series = (1..=9).map(|k| Series::line(format!("plate[{k}].temperature"), vec![])).collect();
         let panel = Panel { series, mark_label: "limit".to_owned(), ..Panel::default() };
-        let legend = Legend::of(&panel, false);
+        let legend = Legend::new(&panel, false);
         assert!(legend.rows.len() > 1 && legend.height() == ROW_HEIGHT * legend.rows.len() as f64);
         let shown: Vec<&str> = legend.rows.iter().flatten().map(|(_, label)| *label).collect();
         let labels = panel.series.iter().map(|series| series.label.as_str());
@@ -173,16 +173,16 @@ mod tests {
             let wide: f64 = row.iter().map(|(_, label)| width(label)).sum();
             assert!(wide - BETWEEN <= WIDTH - PLOT_LEFT - RIGHT);
         }
-        assert_eq!(Legend::of(&Panel::default(), false).height(), 0.0);
+        assert_eq!(Legend::new(&Panel::default(), false).height(), 0.0);
     }
 
     #[test]
     fn a_title_has_its_own_room_in_the_first_row() {
         let few = Panel::new("").titled("by approximation").with([Series::line("a", vec![])]);
-        assert_eq!(Legend::of(&few, false).height(), ROW_HEIGHT);
+        assert_eq!(Legend::new(&few, false).height(), ROW_HEIGHT);
         let wide = "a".repeat(90);
         let with = |title: &str| Panel::new("").titled(title).with([Series::line(wide.clone(), vec![])]);
-        assert_eq!(Legend::of(&with(""), false).height(), ROW_HEIGHT);
-        assert_eq!(Legend::of(&with("sampled every 8 spins"), false).height(), 2.0 * ROW_HEIGHT);
+        assert_eq!(Legend::new(&with(""), false).height(), ROW_HEIGHT);
+        assert_eq!(Legend::new(&with("sampled every 8 spins"), false).height(), 2.0 * ROW_HEIGHT);
     }
 }

@@ -1,4 +1,4 @@
-//! What charts have in common: their width, their head, and that several stand below each other in one SVG.
+//! Common parts of charts: width, head, several charts below each other in one SVG.
 
 use super::pen::{HEADING, Pen};
 

@@ -25,7 +25,7 @@ pub struct PlaneChart {
     pub y_label: String,
     /// The panels, left to right. Series of the same place have the same colour.
     pub panels: Vec<PlanePanel>,
-    /// What the panels' cells show, with a scale to the right.
+    /// Quantity of the panels' cells, with a scale to the right.
     pub shading: Option<Shading>,
 }
 

@@ -1,4 +1,4 @@
-//! What a chart shows: series in panels.
+//! Data of a chart: series in panels.
 
 use super::{
     axes::is_drawable,
@@ -25,7 +25,7 @@ pub enum Mark {
     Bars,
 }
 
-/// Of each of the bands about a line, which darken where they lie on each other.
+/// Opacity of each band about a line; bands darken where they overlap.
 pub(super) const BAND_OPACITY: f64 = 0.18;
 
 /// A range about a line, such as that between two percentiles.
@@ -117,7 +117,7 @@ impl Series {
 impl Series {
     /// Whether a part of it is drawn by its extremes.
     pub(super) fn has_band(&self) -> bool {
-        self.mark == Mark::Line && pieces(&self.points).any(|piece| envelope::of(piece).is_some())
+        self.mark == Mark::Line && pieces(&self.points).any(|piece| envelope::envelope(piece).is_some())
     }
 }
 
@@ -134,11 +134,11 @@ pub struct Panel {
     pub y_range: Option<(f64, f64)>,
     /// Values marked by a dashed horizontal line, such as limits.
     pub marks: Vec<f64>,
-    /// What the legend says of them; empty: nothing.
+    /// Label of the marks in the legend; empty without one.
     pub mark_label: String,
     /// Spans of the horizontal axis that are shaded, such as eclipses.
     pub shades: Vec<(f64, f64)>,
-    /// What the legend says of them; empty: nothing.
+    /// Label of the shades in the legend; empty without one.
     pub shade_label: String,
     /// Whether only whole numbers are ticks.
     pub is_whole: bool,

@@ -7,7 +7,7 @@ use super::shading::mixed;
 /// A place in m or a direction, in the body frame.
 pub type Vector = Vector3<f64>;
 
-/// What a surface is drawn as.
+/// Appearance of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Finish {
     /// Cloth or sheet.
@@ -31,7 +31,7 @@ pub struct Surface {
     pub normal: Vector,
     /// Two directions in the plane that the grid of a solar panel follows.
     pub grid: [Vector; 2],
-    /// What it is drawn as.
+    /// Appearance.
     pub finish: Finish,
     /// The entry of the legend that it belongs to.
     pub part: usize,
@@ -57,7 +57,7 @@ impl Surface {
         Some(Self { center: mean(&corners), corners, normal, grid: [along, across], finish, part: 0 })
     }
 
-    /// Of a round body, from its corners; the normal follows them by the right-hand rule.
+    /// Facet of a round body, from its corners; the normal follows them by the right-hand rule.
     pub fn facet(corners: Vec<Vector>, finish: Finish, part: usize) -> Option<Self> {
         let [a, b, c, ..] = corners[..] else { return None };
         let normal = unit((b - a).cross(&(c - b)))?;

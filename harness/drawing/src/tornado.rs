@@ -14,8 +14,8 @@ const FILLED: f64 = 0.76;
 /// Size of the names, the room about them, and what they may take at most, in px.
 const NAME_SIZE: f64 = 11.0;
 const ABOUT_NAME: f64 = 30.0;
-const MOST_NAME: f64 = 420.0;
-/// What a range without extent is drawn with.
+const MAX_NAME: f64 = 420.0;
+/// Limits with which a range without extent is drawn.
 const NO_RANGE: [f64; 2] = [-1.0, 1.0];
 
 /// Causes by what they change.
@@ -25,7 +25,7 @@ pub struct TornadoChart {
     pub title: String,
     /// Label of the horizontal axis, with its unit in brackets.
     pub x_label: String,
-    /// What the two bars of a row are.
+    /// Labels of the two bars of a row.
     pub bars: [String; 2],
     /// Names of the causes with their changes, top to bottom; one that is not finite has no bar.
     pub rows: Vec<(String, [f64; 2])>,
@@ -43,7 +43,7 @@ impl TornadoChart {
 
     fn name_width(&self) -> f64 {
         let widths = self.rows.iter().map(|(name, _)| width_px(name, NAME_SIZE));
-        widths.fold(0.0, f64::max).min(MOST_NAME)
+        widths.fold(0.0, f64::max).min(MAX_NAME)
     }
 }
 

@@ -181,7 +181,7 @@ impl Growing {
         part.append(bytes).map_err(|error| part.message(&error))
     }
 
-    /// Continues with what a recording before left, of which the first bytes are kept; on the standard output there is none.
+    /// Continues the recording of an earlier run and keeps its first bytes; on the standard output there is none.
     pub fn keep(&mut self, bytes: u64) -> Result<(), String> {
         let Some(part) = &mut self.part else { return Ok(()) };
         part.keep(bytes).map_err(|error| part.message(&error))

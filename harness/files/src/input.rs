@@ -6,7 +6,7 @@ use std::{
     path::Path,
 };
 
-/// What a file is if it is no regular file; `None` for a regular file.
+/// Returns the kind of a file that is no regular file; `None` for a regular file.
 pub fn kind(metadata: &Metadata) -> Option<&'static str> {
     let kind = metadata.file_type();
     if kind.is_file() {
@@ -38,9 +38,9 @@ pub fn open(path: &Path) -> io::Result<File> {
 }
 
 /// Longest text that [`read_text`] takes, in bytes: that of the TOML files.
-pub const MOST_TEXT_BYTES: u64 = 4 << 20;
+pub const MAX_TEXT_BYTES: u64 = 4 << 20;
 /// Largest table of numbers that is read, in bytes.
-pub const MOST_TABLE_BYTES: u64 = 64 << 20;
+pub const MAX_TABLE_BYTES: u64 = 64 << 20;
 
 /// First bytes of a ZIP archive.
 const ZIP: &[u8] = b"PK\x03\x04";
@@ -50,7 +50,7 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     read_at_most(path, u64::MAX)
 }
 
-/// Reads a regular file of at most so many bytes; a larger one is refused before it is read.
+/// Reads a regular file of at most `most_bytes`; a larger one is refused before it is read.
 pub fn read_at_most(path: &Path, most_bytes: u64) -> io::Result<Vec<u8>> {
     let file = open_at_most(path, most_bytes)?;
     let mut bytes = Vec::new();
@@ -61,7 +61,7 @@ pub fn read_at_most(path: &Path, most_bytes: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Opens a regular file of at most so many bytes for reading.
+/// Opens a regular file of at most `most_bytes` for reading.
 pub fn open_at_most(path: &Path, most_bytes: u64) -> io::Result<File> {
     let file = open(path)?;
     let found = file.metadata()?.len();
@@ -81,8 +81,7 @@ pub fn read_text(path: &Path) -> Result<String, String> {
     if read.is_ok() && head == ZIP {
         return Err(no_text("a ZIP archive, as FMUs and systems are"));
     }
-    let bytes =
-        read_at_most(path, MOST_TEXT_BYTES).map_err(|error| format!("{}: {error}", path.display()))?;
+    let bytes = read_at_most(path, MAX_TEXT_BYTES).map_err(|error| format!("{}: {error}", path.display()))?;
     let is_utf_16 = matches!(bytes.as_slice(), [0xff, 0xfe, ..] | [0xfe, 0xff, ..]);
     if !is_utf_16 && bytes.contains(&0) {
         return Err(no_text("a binary file"));

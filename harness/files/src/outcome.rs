@@ -1,4 +1,4 @@
-//! What every command ends with.
+//! Outcomes of commands.
 
 use std::process::ExitCode;
 

@@ -89,7 +89,7 @@ impl Part {
         Ok(())
     }
 
-    /// Continues with what an earlier run left, of which the first bytes are kept.
+    /// Continues the part of an earlier run and keeps its first bytes.
     pub fn keep(&mut self, bytes: u64) -> io::Result<()> {
         self.file.set_len(bytes)?;
         self.file.seek(SeekFrom::End(0))?;

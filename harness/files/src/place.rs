@@ -8,7 +8,7 @@ use std::{
 
 use crate::{input::kind, paths::folder_of, system};
 
-/// Why a file cannot be the target whoever writes it: it is of another kind or an input.
+/// Refuses a target that no program may write: a file of another kind, or an input.
 pub(crate) fn check_place(target: &Path, inputs: &[&Path]) -> Result<(), String> {
     let metadata = match fs::symlink_metadata(target) {
         Ok(metadata) => Some(metadata),

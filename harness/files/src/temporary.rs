@@ -27,7 +27,7 @@ fn known() -> MutexGuard<'static, Vec<PathBuf>> {
 const ATTEMPTS: u32 = 100;
 const PAUSE: Duration = Duration::from_millis(5);
 
-/// Removes every temporary file and folder there is. The program ends next: nothing may use them any more, and whoever makes
+/// Removes every temporary file and folder there is. The program ends next: nothing may use them any more, and a thread that makes
 /// another one waits for that end.
 pub fn remove_temporaries() {
     let mut known = known();
@@ -68,7 +68,7 @@ impl Drop for Registered {
     }
 }
 
-/// What the names of temporary folders begin and end with; six letters and digits are between.
+/// Beginning and end of the names of temporary folders; six letters and digits are between.
 const NAME: [&str; 2] = ["heliotorque-", ".scratch"];
 const LETTERS: usize = 6;
 
@@ -102,7 +102,7 @@ impl Scratch {
         }
     }
 
-    /// Where it is.
+    /// Path of the folder.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }

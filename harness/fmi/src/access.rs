@@ -1,4 +1,4 @@
-//! Which conditions of the call table the variables of an FMU meet.
+//! Conditions of the call table that the variables of an FMU meet.
 
 use model_description::{BaseType, Description, call_table::Condition};
 
@@ -10,7 +10,7 @@ const RESTRICTING: [Condition; 4] = [
     Condition::InputOrTunable,
 ];
 
-/// Which of them a variable meets, one bit each.
+/// Conditions that a variable meets, one bit each.
 pub(crate) type Conditions = u8;
 
 /// The bit of a condition; 0 of one that any variable meets.
@@ -57,7 +57,7 @@ impl Table {
 }
 
 impl AccessTable {
-    pub(crate) fn of(description: &Description) -> Self {
+    pub(crate) fn new(description: &Description) -> Self {
         let mut initial_unknown = vec![false; description.variables.len() + 1];
         for unknown in &description.structure.initial_unknowns {
             if let Some(flag) = initial_unknown.get_mut(unknown.index as usize) {

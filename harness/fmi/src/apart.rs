@@ -3,7 +3,7 @@
 use crate::{Error, Instance};
 
 /// Events closer than a millionth of the step stay together.
-pub(crate) const MOST_HALVINGS: u32 = 20;
+pub(crate) const MAX_HALVINGS: u32 = 20;
 
 /// Takes a step; one in which the counter, an Integer, rises by more than `most` is taken back and made in halves. `between` is
 /// reported every communication point within the step.

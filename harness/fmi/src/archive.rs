@@ -133,7 +133,7 @@ fn is_description(name: &str) -> bool {
     endings.iter().any(|ending| name.to_ascii_lowercase().ends_with(ending))
 }
 
-/// Which side of a copy failed: a damaged archive is not a full disk.
+/// Side of a copy that failed: a damaged archive is not a full disk.
 enum CopyError {
     Read(io::Error),
     Write(io::Error),

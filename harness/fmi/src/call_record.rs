@@ -1,4 +1,4 @@
-//! Which FMI call is in progress, recorded in memory that another process can read.
+//! FMI call in progress, recorded in memory that another process can read.
 
 use std::sync::{
     OnceLock,
@@ -11,7 +11,7 @@ use model_description::{call_table::Function, describe};
 /// arguments, which instance they are made to.
 pub const CALL_RECORD_WORDS: usize = 6;
 
-/// Where the calls of this process are recorded.
+/// Record of the calls of this process.
 pub type CallRecord = [AtomicU64; CALL_RECORD_WORDS];
 
 static RECORD: OnceLock<&'static CallRecord> = OnceLock::new();
@@ -131,7 +131,7 @@ pub fn call_in_progress(record: &CallRecord) -> Option<(u64, u64)> {
     (number != 0).then(|| (number, begun.load(Ordering::Relaxed)))
 }
 
-/// Where the last step begins, in s.
+/// Begin of the last step, in s.
 pub fn step_begin_s(record: &CallRecord) -> Option<f64> {
     let [_, _, last, first_time, ..] = record;
     (last.load(Ordering::Relaxed) == DO_STEP).then(|| f64::from_bits(first_time.load(Ordering::Relaxed)))

@@ -1,4 +1,4 @@
-//! What can go wrong with somebody's FMU, each with file, call and remedy.
+//! Errors of an FMU, each with file, call and remedy.
 
 use std::path::PathBuf;
 
@@ -10,9 +10,9 @@ pub enum Error {
     /// A file or folder cannot be read or written.
     #[error("{}: {source}", path.display())]
     File {
-        /// Which one.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system reports.
+        /// Error of the system.
         source: std::io::Error,
     },
     /// The archive is no usable FMU.
@@ -20,7 +20,7 @@ pub enum Error {
     Archive {
         /// The archive.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Fault of the file.
         what: String,
     },
     /// `modelDescription.xml`, or the requirements of a shared library, cannot be read.
@@ -28,7 +28,7 @@ pub enum Error {
     Unusable {
         /// The FMU or the library.
         path: PathBuf,
-        /// What is wrong, with line and element where known.
+        /// Fault, with line and element where known.
         what: String,
     },
     /// The FMU offers no co-simulation.
@@ -85,7 +85,7 @@ pub enum Error {
     Value {
         /// The variable.
         variable: String,
-        /// What was found and what is allowed.
+        /// Value that was found and what is allowed.
         what: String,
     },
     /// An input table that cannot be used.
@@ -115,7 +115,7 @@ pub enum Error {
         /// Bytes that are allowed.
         allowed: u64,
     },
-    /// What takes the rows went wrong.
+    /// Error of the recipient of the rows.
     #[error("{0}")]
     Rows(String),
 }
@@ -130,7 +130,7 @@ pub struct CallError {
     pub instance: String,
     /// The function with what matters of its arguments.
     pub call: String,
-    /// What happened.
+    /// Outcome of the call.
     pub outcome: Outcome,
     /// The last messages the instance logged.
     pub messages: Vec<LogMessage>,

@@ -75,7 +75,7 @@ impl Fmu {
         })?;
         let names = parsed.description.variables.iter().map(|variable| variable.name.clone());
         let positions = names.zip(0..).collect();
-        let access = AccessTable::of(&parsed.description);
+        let access = AccessTable::new(&parsed.description);
         Ok(Self(Arc::new(Inner {
             source,
             folder,

@@ -1,4 +1,4 @@
-//! What a file is that was given for an FMU but is no ZIP archive, by its first bytes.
+//! Kind of a file that was given for an FMU but is no ZIP archive, by its first bytes.
 
 use std::{io::Read, path::Path};
 
@@ -9,7 +9,7 @@ const BYTES: u64 = 4096;
 const LIBRARIES: [&[u8]; 5] =
     [b"\x7fELF", b"MZ", b"\xcf\xfa\xed\xfe", b"\xce\xfa\xed\xfe", b"\xca\xfe\xba\xbe"];
 
-/// What it is and what to do with it; `None` for a ZIP archive and what is not recognised.
+/// Returns the kind of a file and what to do with it; `None` for a ZIP archive and what is not recognised.
 pub(crate) fn kind(path: &Path) -> Option<&'static str> {
     let mut bytes = Vec::new();
     files::open(path).ok()?.take(BYTES).read_to_end(&mut bytes).ok()?;

@@ -8,10 +8,10 @@ use crate::{Column, Error, Fmu, Instance, Recording, Value};
 const MAX_BYTES: u64 = 1_000_000_000;
 /// A row's time.
 const TIME_BYTES: u64 = 8;
-/// What a short text takes with its bookkeeping.
+/// Memory of a short text with its bookkeeping, in bytes.
 const TEXT_BYTES: u64 = 64;
 
-/// What one more row adds to a column.
+/// Memory of one more row of a column, in bytes.
 fn column_bytes(column: &Column) -> u64 {
     match column {
         Column::Real(_) => 8,
@@ -36,7 +36,7 @@ pub struct Row<'a> {
     pub texts: &'a [String],
 }
 
-/// What takes rows as they are recorded.
+/// Recipient of rows as they are recorded.
 pub trait Rows {
     /// Takes one more row.
     fn take(&mut self, row: &Row<'_>) -> Result<(), Error>;

@@ -26,7 +26,7 @@ const ELEMENTARY: [&str; 25] = [
     "exp2", "expm1", "hypot", "log", "log10", "log1p", "log2", "pow", "sin", "sincos", "sinh", "tan", "tanh",
 ];
 
-/// What a shared library asks of the system that loads it.
+/// Requirements of a shared library on the system that loads it.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Requirements {
     /// Path in the FMU, such as `binaries/linux64/MomentumPlant.so`.
@@ -39,7 +39,7 @@ pub struct Requirements {
     pub glibc: Option<String>,
     /// Functions and data that it takes from other libraries.
     pub imports: Vec<String>,
-    /// Those of them that it cannot do without and whose library it does not name by a version; of ELF only.
+    /// Symbols that it cannot do without and whose library it does not name by a version; of ELF only.
     pub unversioned: Vec<String>,
 }
 

@@ -80,7 +80,7 @@ fn vector(name: &str) -> &str {
     split.filter(|(_, indices)| is_indices(indices)).map_or(name, |(vector, _)| vector)
 }
 
-/// That there is no variable of this name, with similar ones.
+/// Returns the error that there is no variable of this name, with similar ones.
 pub(crate) fn unknown(description: &Description, name: &str) -> Error {
     let near = similar(name, description.variables.iter().map(|variable| variable.name.as_str()));
     let hint = if near.is_empty() {

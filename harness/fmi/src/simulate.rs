@@ -7,12 +7,12 @@ use model_description::{Causality, Description, Initial, ScalarVariable, Variabi
 
 use crate::{
     Error, Fmu, InputTable, Instance, InstanceOptions, LogMessage, Recording, Status, Times, Value,
-    apart::{MOST_HALVINGS, step_apart},
+    apart::{MAX_HALVINGS, step_apart},
     recorder::{Collector, Reader, Rows},
     watch::{Watch, Watcher},
 };
 
-/// What to simulate. `Options::default()` runs the FMU's default experiment and records its outputs.
+/// Extent of a simulation. `Options::default()` runs the FMU's default experiment and records its outputs.
 #[derive(Default)]
 pub struct Options<'a> {
     /// Start in s; otherwise the default experiment's, otherwise 0.
@@ -54,9 +54,9 @@ const SAME: f64 = 1e-9;
 /// Why a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ended {
-    /// It reached the stop time.
+    /// The stop time was reached.
     AtStop,
-    /// It was cancelled.
+    /// The simulation was cancelled.
     Cancelled,
     /// The FMU ended by itself (fmi2Terminated).
     ByItself,
@@ -82,11 +82,11 @@ impl From<Error> for Box<Stopped> {
 /// A finished run.
 #[derive(Debug)]
 pub struct Simulation {
-    /// What was recorded.
+    /// Recorded rows.
     pub recording: Recording,
     /// Why it ended.
     pub ended: Ended,
-    /// What the instance logged (the last thousand messages).
+    /// Messages of the instance's log (the last thousand).
     pub messages: Vec<LogMessage>,
 }
 
@@ -130,7 +130,7 @@ fn record(
 fn collector(fmu: &Fmu, options: &Options<'_>) -> Result<(Collector, Vec<usize>), Error> {
     let positions = options.record.clone().unwrap_or_else(|| outputs(fmu.description()));
     let collector = Collector::new(fmu.description(), &positions);
-    let times = Times::of(fmu, options.start_s, options.stop_s, options.step_s)?;
+    let times = Times::from_fmu(fmu, options.start_s, options.stop_s, options.step_s)?;
     let points = match options.record_at_s {
         Some(record_at_s) => record_at_s.len() as u64,
         None => RecordedPoints::new(&times, options.record_every_s)?.count(),
@@ -157,7 +157,7 @@ pub fn simulate_with(
     rows: &mut dyn Rows,
 ) -> Result<Ended, Error> {
     let fmu = &instance.fmu().clone();
-    let times = Times::of(fmu, options.start_s, options.stop_s, options.step_s)?;
+    let times = Times::from_fmu(fmu, options.start_s, options.stop_s, options.step_s)?;
     let recorded = RecordedPoints::new(&times, options.record_every_s)?;
     let positions = options.record.take().unwrap_or_else(|| outputs(fmu.description()));
     let mut reader = Reader::new(fmu, &positions);
@@ -165,17 +165,17 @@ pub fn simulate_with(
     run_steps(fmu, instance, (&times, recorded), &mut options, &mut record)
 }
 
-/// Which communication points are recorded: the start, the point nearest to every whole multiple of a time after it, and the last
+/// Communication points that are recorded: the start, the point nearest to every whole multiple of a time after it, and the last
 /// one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RecordedPoints {
-    /// That time, in steps; at least one.
+    /// Time between two of them, in steps; at least one.
     spacing: f64,
     steps: u64,
 }
 
 impl RecordedPoints {
-    /// Of a run, at every point where no time is given.
+    /// Points of a run: all where no time is given.
     ///
     /// # Errors
     /// A time below 0.
@@ -249,7 +249,7 @@ fn run_steps(
             (None, None, Some(watch)) => watch.step(instance, time_s, step_s),
             (None, None, None) => instance.do_step(time_s, step_s, true),
             (None, Some(counter), _) => {
-                step_apart(instance, (counter, 1), (time_s, step_s), MOST_HALVINGS, record)
+                step_apart(instance, (counter, 1), (time_s, step_s), MAX_HALVINGS, record)
             }
         };
         if let Err(error) = stepped {
@@ -279,7 +279,7 @@ fn run_steps(
 
 /// Times at which rows are recorded, wherever the communication points are.
 struct Cuts<'a> {
-    /// Those to come, in s.
+    /// Times to come, in s.
     left_s: &'a [f64],
     /// A time this near to a communication point is that point.
     resolution_s: f64,

@@ -1,4 +1,4 @@
-//! What an FMU logs.
+//! Messages of an FMU's log.
 
 use model_description::Status;
 

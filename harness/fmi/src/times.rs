@@ -17,7 +17,7 @@ pub struct Times {
 
 impl Times {
     /// The times of a run: what is given, else the default experiment's, else something that just runs.
-    pub fn of(
+    pub fn from_fmu(
         fmu: &Fmu,
         start_s: Option<f64>,
         stop_s: Option<f64>,

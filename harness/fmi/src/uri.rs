@@ -19,7 +19,7 @@ fn encoded(path: &str) -> impl std::fmt::Display {
     utf8_percent_encode(path, RESERVED)
 }
 
-/// Of a path of Windows. `\\?\`, which lifts the limit on its length, is not part of the place.
+/// URI of a path of Windows. `\\?\`, which lifts the limit on its length, is not part of it.
 fn windows_uri(path: &str) -> String {
     let path = path.replace('\\', "/");
     let path = match path.strip_prefix("//?/") {

@@ -2,7 +2,7 @@
 
 use crate::{
     Error, Instance,
-    apart::{MOST_HALVINGS, step_apart},
+    apart::{MAX_HALVINGS, step_apart},
 };
 
 /// Watches a run. For FMUs that take steps of any size.
@@ -62,7 +62,7 @@ impl<'a> Watch<'a> {
     fn piece(&mut self, instance: &mut Instance, time_s: f64, step_s: f64) -> Result<(), Error> {
         let Some(counter) = self.watcher.counter() else { return instance.do_step(time_s, step_s, true) };
         let between = &mut |instance: &mut Instance, at_s: f64| self.watcher.look(instance, at_s).map(|_| ());
-        step_apart(instance, (counter, 0), (time_s, step_s), MOST_HALVINGS, between)
+        step_apart(instance, (counter, 0), (time_s, step_s), MAX_HALVINGS, between)
     }
 }
 

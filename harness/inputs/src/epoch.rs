@@ -41,7 +41,7 @@ const TIMES: [(&str, Since); 3] = [
 /// From where downlinks are counted, and its item for the start.
 const REFERENCE: (&str, &str) = ("guided.downlinkReference", "start");
 
-/// What dates are counted by: the values that hold together, and the time of the start.
+/// References of dates: the values that hold together, and the time of the start.
 pub struct Dates<'a> {
     description: &'a Description,
     /// As for `--set`; the last one of a name counts.
@@ -109,7 +109,7 @@ impl<'a> Dates<'a> {
         }
     }
 
-    /// What a parameter of this component counts at an epoch.
+    /// Value of a parameter of this component at an epoch.
     fn time_s(&self, component: &str, since: Since, epoch_s: f64) -> Result<f64, String> {
         let start =
             starts(self.description).find(|it| it.name.starts_with(component)).ok_or_else(no_epoch)?;
@@ -135,7 +135,7 @@ impl<'a> Dates<'a> {
         self.description.variables.iter().find(|it| it.name.eq_ignore_ascii_case(name))
     }
 
-    /// What is set of this name.
+    /// Value set for this name.
     fn set(&self, name: &str) -> Option<&'a str> {
         let values = self.settings.iter().filter_map(|setting| setting.split_once('='));
         values.rev().find(|(set, _)| set.trim().eq_ignore_ascii_case(name)).map(|(_, value)| value.trim())
@@ -171,7 +171,7 @@ fn no_epoch() -> String {
     "which nothing counts: there is no epoch of the start, allowed: a time in s or with a unit".to_owned()
 }
 
-/// What stands before a name in a system, with its dot; empty in an FMU.
+/// Prefix of a name in a system, with its dot; empty in an FMU.
 fn component<'a>(variable: &'a str, name: &str) -> Option<&'a str> {
     variable.strip_suffix(name).filter(|before| before.is_empty() || before.ends_with('.'))
 }

@@ -1,18 +1,18 @@
-//! What an installed program finds beside itself, wherever it is started: its library and the shipped FMUs.
+//! Files that an installed program finds by its own path: its library and the shipped FMUs.
 
 use std::path::{Path, PathBuf};
 
 use model_description::Description;
 
-/// Where they stand as seen from the program's folder; `cargo xtask install` puts them there.
+/// Their folder relative to the program's; `cargo xtask install` puts them there.
 const FROM_PROGRAM: &str = "../lib/heliotorque";
-/// Where `cargo xtask dist` leaves FMUs, for a program that is not installed.
+/// Folder of the FMUs of `cargo xtask dist`, for a program that is not installed.
 const DIST: &str = "dist";
 
 /// The model that is packed and read for unless another is named.
 pub const DEFAULT_MODEL: &str = "MomentumPlant";
 
-/// What this project's exporter writes as `generationTool`: its own name where a model names no tool.
+/// Values of `generationTool` by this project's exporter: its own name where a model names no tool.
 const TOOLS: [&str; 2] = ["heliotorque", "fmi-export"];
 
 /// Whether this project's exporter made the FMU with this description.

@@ -1,4 +1,4 @@
-//! What kind of file a TOML text is meant as, recognised by its keys also where it is damaged; the wrong kind is refused by name.
+//! Kind of file that a TOML text is meant as, recognised by its keys also where it is damaged; the wrong kind is refused by name.
 
 use std::{fmt, path::Path};
 
@@ -18,9 +18,9 @@ pub enum FileKind {
     Ephemeris,
     /// How far arrays and attitude may go to hold a mission's momentum.
     Plan,
-    /// Where and when a leg begins, and the encounter that it leads to.
+    /// Departure of a leg, and the encounter that it leads to.
     Leg,
-    /// What varies over many runs, and what is kept of each.
+    /// Values that vary over many runs, and results that are kept of each.
     Campaign,
 }
 
@@ -94,7 +94,7 @@ const BY_KEYS: [(FileKind, &[&str]); 6] = [
 
 impl FileKind {
     /// By the keys of the text; `None` where no key identifies it.
-    pub fn of(text: &str) -> Option<Self> {
+    pub fn recognize(text: &str) -> Option<Self> {
         let (root, _) = DeTable::parse_recoverable(text);
         let root = root.get_ref();
         let has = |key: &str| root.contains_key(key);
@@ -125,7 +125,7 @@ impl FileKind {
                 self.word()
             ));
         }
-        match Self::of(text) {
+        match Self::recognize(text) {
             Some(found) if found != self => {
                 Err(format!("{file}: found {found}, allowed: {self}: {}", found.remedy(file)))
             }
@@ -143,12 +143,12 @@ impl FileKind {
         Ok(text)
     }
 
-    /// What `heliotorque new` calls it.
+    /// Its name for `heliotorque new`.
     fn word(self) -> &'static str {
         ["spacecraft", "mission", "timeline", "ephemeris", "plan", "leg", "campaign"][self as usize]
     }
 
-    /// What is done with a file of this kind.
+    /// Returns the commands for a file of this kind.
     pub fn remedy(self, file: &str) -> String {
         match self {
             Self::Spacecraft => format!(
@@ -199,7 +199,7 @@ pub fn check_archive(path: &Path) -> Result<(), String> {
         return Ok(());
     }
     let (file, text) = (path.display().to_string(), files::read_text(path)?);
-    Err(match FileKind::of(&text) {
+    Err(match FileKind::recognize(&text) {
         Some(found) => format!("{file}: found {found}, allowed: an FMU or a system: {}", found.remedy(&file)),
         None => format!("{file}: found a TOML file, allowed: an FMU or a system: see `heliotorque check`"),
     })
@@ -237,7 +237,7 @@ mod tests {
             ("name = 1\n[optics.a]\n", Some(FileKind::Spacecraft)),
             ("name = 1\n", None),
         ] {
-            assert_eq!(FileKind::of(text), kind, "{text}");
+            assert_eq!(FileKind::recognize(text), kind, "{text}");
         }
     }
 

@@ -1,4 +1,4 @@
-//! What times and angles on the command line mean.
+//! Times and angles on the command line.
 
 use model_description::units;
 use physics::{constants::TIME_UNITS, environment::dates};

@@ -130,7 +130,7 @@ impl<'d> VariableRow<'d> {
         format!("{vector}[{}]", ranges.map(range).collect::<Vec<_>>().join(","))
     }
 
-    /// What `text` says of each, once where that is the same of all.
+    /// Joins `text` of each, once where it is the same for all.
     pub fn joined(&self, text: impl Fn(&ScalarVariable) -> String) -> String {
         let mut texts: Vec<String> = self.0.iter().map(|variable| text(variable)).collect();
         if texts.iter().all(|text| *text == texts[0]) {

@@ -1,4 +1,4 @@
-//! What an FMU prints: read without waiting, counted, and kept only as far as it is shown.
+//! Output of an FMU: read without waiting, counted, and kept only as far as it is shown.
 
 use std::{
     collections::VecDeque,
@@ -25,7 +25,7 @@ pub struct Shown<'a> {
 }
 
 impl<'a> Shown<'a> {
-    /// Nothing yet; what is left out is said of `name`.
+    /// Starts without output; what is left out is reported for `name`.
     pub fn new(name: &'a str) -> Self {
         Self { name, bytes: 0 }
     }
@@ -57,7 +57,7 @@ struct Stream {
 
 impl Printed {
     /// Takes the streams of a child.
-    pub(super) fn of(child: &mut Child) -> io::Result<Self> {
+    pub(super) fn from_child(child: &mut Child) -> io::Result<Self> {
         let pipes = [child.stdout.take().map(Pipe::new), child.stderr.take().map(Pipe::new)];
         let streams = pipes.into_iter().flatten().map(|pipe| Ok(Stream { pipe: pipe?, line: Vec::new() }));
         let streams = streams.collect::<io::Result<_>>()?;

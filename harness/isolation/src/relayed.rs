@@ -43,11 +43,11 @@ pub fn is_child() -> bool {
 
 /// A command and what its process may take.
 pub struct Relayed {
-    /// What loads the library, as the user named it.
+    /// File that loads the library, as the user named it.
     pub name: String,
-    /// What it is ended for.
+    /// Bounds at which it is ended.
     pub bounds: Bounds,
-    /// What its process may take of the computer.
+    /// Resources that its process may use.
     pub limits: ResourceLimits,
 }
 

@@ -21,14 +21,14 @@ use crate::interrupt;
 /// Shortest and longest pause between two readings of the child; short while many words come. Output and exit of the child end a pause
 /// early; frames, cancellation and timeouts wait for its end.
 const PAUSES: [Duration; 2] = [Duration::from_millis(1), Duration::from_millis(25)];
-/// So many words at a time are many.
+/// Number of words from which on a read is large.
 const MANY: usize = RING_WORDS / 8;
 /// How long a child that has reported its end may take to exit.
 const GRACE: Duration = Duration::from_secs(2);
 /// How long a child that was requested to end may take: who presses Ctrl-C waits less than a second.
 const CANCEL_GRACE: Duration = Duration::from_millis(500);
 
-/// What the parent ends the child for.
+/// Bounds at which the parent ends the child.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Bounds {
     /// When the child has to have ended, and the whole time until then, in s.
@@ -40,7 +40,7 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// Of FMI calls alone: the longest time that one may take, in s.
+    /// Bounds of FMI calls alone: the longest time that one may take, in s.
     pub fn of_calls(call_s: f64) -> Self {
         Self { call_s: Some(call_s), ..Self::default() }
     }
@@ -51,19 +51,19 @@ impl Bounds {
 pub enum EndReason {
     /// By itself.
     Ended(ExitStatus),
-    /// It ran when the whole time was over, in s.
+    /// The child ran when the whole time was over, in s.
     Hangs(f64),
     /// A call took longer than it may, in s.
     CallHangs(f64),
-    /// It reported its end and continued.
+    /// The child reported its end and continued.
     DoesNotExit,
-    /// It printed more bytes than it may.
+    /// The child printed more bytes than allowed.
     Prints(u64),
-    /// It exceeded its memory limit, in bytes.
+    /// The child exceeded its memory limit, in bytes.
     Allocates(u64),
-    /// It was requested to end.
+    /// The child was requested to end.
     Interrupted,
-    /// What it sent could not be taken.
+    /// A message of the child could not be taken.
     Refused(String),
 }
 
@@ -100,12 +100,12 @@ impl Supervised {
         Some(self.placed(&what))
     }
 
-    /// That it ended without a result.
+    /// Returns the message that it ended without a result.
     pub fn without_result(&self) -> String {
         self.placed(&describe(&self.end_reason))
     }
 
-    /// What it left behind, if anything.
+    /// Returns the processes that it left behind, if any.
     pub fn left_behind(&self) -> Option<String> {
         let named = self.left.iter().take(NAMED).map(String::as_str).collect::<Vec<_>>().join(", ");
         let more = self.left.len().checked_sub(NAMED).filter(|more| *more > 0);
@@ -159,7 +159,7 @@ impl ChildProcess {
         command
             .envs(temporary.iter().flat_map(|folder| ["TMPDIR", "TMP", "TEMP"].map(|name| (name, folder))));
         let mut child = system::spawn(&mut command, limits)?;
-        match Printed::of(&mut child) {
+        match Printed::from_child(&mut child) {
             Ok(printed) => Ok(Self { child, inbox, printed, memory: limits.memory }),
             Err(error) => {
                 let _ = system::end(&mut child)?;

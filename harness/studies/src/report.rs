@@ -132,11 +132,11 @@ impl Run<'_> {
 }
 
 /// Most labels that are listed one by one.
-const MOST_LISTED: usize = 12;
+const MAX_LISTED: usize = 12;
 
 /// The labels one below the other; of many the first and the last.
 fn listed(labels: &[String]) -> String {
-    if labels.len() <= MOST_LISTED {
+    if labels.len() <= MAX_LISTED {
         return labels.join("\n  ");
     }
     format!("{}, {}, ..., {} ({} of them)", labels[0], labels[1], labels[labels.len() - 1], labels.len())

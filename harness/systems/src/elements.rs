@@ -76,7 +76,7 @@ pub(crate) fn boolean(start: &Start, name: &str) -> Result<Option<bool>, ReadErr
     }
 }
 
-/// Reads every child of `parent`, each of which has to be an element `name`.
+/// Reads every child of `parent`; each has to be an element `name`.
 pub(crate) fn list<T>(
     xml: &mut Xml<'_>,
     parent: &Start,

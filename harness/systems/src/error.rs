@@ -1,4 +1,4 @@
-//! What can be wrong with a system, each with file, place, what was found and what is allowed.
+//! Errors of a system, each with file, place, what was found and what is allowed.
 
 use std::path::PathBuf;
 
@@ -10,7 +10,7 @@ pub enum Error {
     Archive {
         /// The archive.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Fault of the file.
         what: String,
     },
     /// The description of the system cannot be used.
@@ -30,10 +30,10 @@ pub enum Error {
         path: PathBuf,
         /// The component.
         component: String,
-        /// What is wrong with its FMU.
+        /// Error of its FMU.
         source: Box<fmi::Error>,
     },
-    /// What is to be wired cannot be.
+    /// Refusal of connections that `wire` was asked for.
     #[error("{0}")]
     Wire(String),
     /// An FMI call, a value, the times of a run; the component's name is the instance's.

@@ -118,7 +118,7 @@ impl Ports {
         let Self { reals, integers, booleans, .. } = self;
         let real = |link: &Link| {
             let value = signals.reals[link.signal];
-            link.linear.map_or(value, |linear| linear.of(value))
+            link.linear.map_or(value, |linear| linear.apply(value))
         };
         if reals.gather(real, |one, other| one.to_bits() == other.to_bits()) {
             instance.set_reals(&reals.references, &reals.values)?;

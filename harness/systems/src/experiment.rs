@@ -3,7 +3,7 @@
 use fmi::Fmu;
 use model_description::DefaultExperiment;
 
-/// What is left out is the earliest start and stop and the smallest step of the FMUs.
+/// Completes a default experiment: earliest start and stop and smallest step of the FMUs where they are left out.
 pub(crate) fn complete<'a>(
     given: DefaultExperiment,
     fmus: impl Iterator<Item = &'a Fmu> + Clone,

@@ -15,11 +15,11 @@ pub struct Joint {
     pub from: (usize, usize),
     /// Component and position of the input.
     pub to: (usize, usize),
-    /// What the value goes through, if anything.
+    /// Linear transformation of the value, if any.
     pub linear: Option<Linear>,
 }
 
-/// What a connection is.
+/// Kind of a connection.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Link {
     /// From variable to variable.
@@ -170,7 +170,7 @@ pub(crate) fn link(structure: &Structure, fmus: &[Fmu], connection: &Connection)
     }
 }
 
-/// What a Real goes through between one of the system's own connectors, which holds it in its own unit, and a variable.
+/// Linear transformation of a Real between one of the system's own connectors, which holds it in its own unit, and a variable.
 fn own_linear(
     structure: &Structure,
     connection: &Connection,
@@ -234,7 +234,7 @@ pub(crate) fn foreign_item<'a>(
     given.iter().find(|item| !taken.iter().any(|it| is_same_item(it, item)))
 }
 
-/// What a Real goes through from variable to variable: to the connector's unit, to the other connector's unit, through the
+/// Linear transformation of a Real from variable to variable: to the connector's unit, to the other connector's unit, through the
 /// connection's own transformation, to the other variable's unit. An end that is no variable begins or ends in its connector's.
 fn linear(
     structure: &Structure,

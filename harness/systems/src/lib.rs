@@ -31,8 +31,8 @@ pub use error::Error;
 pub use joint::{ConnectedVariable, Joint};
 pub use master::{FirstExchange, Master};
 pub use own::Own;
-pub use package::{MOST_BYTES, is_system};
-pub use reader::{MOST_COMPONENTS, read as read_structure};
+pub use package::{MAX_BYTES, is_system};
+pub use reader::{MAX_COMPONENTS, read as read_structure};
 pub use simulate::simulate_into;
 pub use structure::{
     Binding, Component, Connection, Connector, ConnectorKind, End, Enumeration, Linear, Mapping,
@@ -40,5 +40,5 @@ pub use structure::{
 };
 pub use system::{Part, System};
 pub use unread::Unread;
-pub use wire::{Left, Wired, Wiring, component_name, wire};
+pub use wire::{OpenInput, Wired, Wiring, component_name, wire};
 pub use writer::{to_parameter_set, to_xml};

@@ -17,7 +17,7 @@ pub enum Master {
     GaussSeidel,
 }
 
-/// What connected outputs count as in the first step.
+/// Values of connected outputs in the first step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum FirstExchange {
     /// The outputs at the start, exchanged in initialization mode until they stay.
@@ -30,7 +30,7 @@ pub enum FirstExchange {
 }
 
 /// The most exchanges in initialization mode: a loop without a fixed point ends there.
-const MOST_SWEEPS: usize = 20;
+const MAX_SWEEPS: usize = 20;
 
 /// How a step ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,7 +90,7 @@ impl Running {
     /// Exchanges outputs in initialization mode, component after component, until none changes.
     fn exchange_until_unchanged(&mut self) -> Result<(), Error> {
         self.get_all()?;
-        for _ in 0..MOST_SWEEPS {
+        for _ in 0..MAX_SWEEPS {
             let before = self.signals.bits();
             for (number, (instance, ports)) in self.instances.iter_mut().zip(&mut self.ports).enumerate() {
                 record_instance(number);
@@ -152,7 +152,7 @@ impl Running {
         })
     }
 
-    /// What the instances logged, one component after another, each message with its component's name.
+    /// Returns the messages of the instances' logs, one component after another, each with its component's name.
     pub(crate) fn messages(&self) -> Vec<LogMessage> {
         let named = |instance: &Instance| {
             let name = instance.name().to_owned();

@@ -48,9 +48,9 @@ impl Own {
 
 impl ConnectedVariable {
     /// A value on its way to the variable, or from it.
-    pub fn of(self, value: &Value) -> Value {
+    pub fn convert(self, value: &Value) -> Value {
         match value {
-            Value::Real(value) if self.linear != Linear::IDENTITY => Value::Real(self.linear.of(*value)),
+            Value::Real(value) if self.linear != Linear::IDENTITY => Value::Real(self.linear.apply(*value)),
             value => value.clone(),
         }
     }

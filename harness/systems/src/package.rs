@@ -12,7 +12,7 @@ use percent_encoding::percent_decode_str;
 use crate::{error::Error, structure::SSD_FILE};
 
 /// Largest description of a system, or set of parameters, in bytes.
-pub const MOST_BYTES: u64 = 64 << 20;
+pub const MAX_BYTES: u64 = 64 << 20;
 
 /// Whether a path is that of a system and not of an FMU: an `.ssp` file, or a folder with a description of one.
 pub fn is_system(path: &Path) -> bool {
@@ -22,9 +22,9 @@ pub fn is_system(path: &Path) -> bool {
 /// An unpacked SSP.
 #[derive(Debug)]
 pub(crate) struct Package {
-    /// What it was opened from.
+    /// File or folder that it was opened from.
     pub source: PathBuf,
-    /// Where it is unpacked.
+    /// Folder that it is unpacked into.
     pub folder: PathBuf,
     // Removed with the package.
     _temporary: Option<Scratch>,
@@ -52,7 +52,7 @@ impl Package {
     pub(crate) fn read(&self, relative: &str) -> Result<Vec<u8>, Error> {
         let refuse = |what: String| self.structure(relative, what);
         let path = self.path(relative).map_err(refuse)?;
-        files::read_at_most(&path, MOST_BYTES).map_err(|error| match error.kind() {
+        files::read_at_most(&path, MAX_BYTES).map_err(|error| match error.kind() {
             io::ErrorKind::NotFound if relative == SSD_FILE => Error::Archive {
                 path: self.source.clone(),
                 what: format!("it holds no {SSD_FILE}, so it is no system"),
@@ -62,7 +62,7 @@ impl Package {
         })
     }
 
-    /// Where a file of the SSP is; `source` is a relative URI.
+    /// Returns the path of a file of the SSP; `source` is a relative URI.
     pub(crate) fn path(&self, source: &str) -> Result<PathBuf, String> {
         let decoded = percent_decode_str(source).decode_utf8_lossy();
         let inside = fmi::path_inside(&decoded).ok_or_else(|| {
@@ -100,7 +100,7 @@ impl Package {
         Error::Structure { path: self.source.clone(), file: file.to_owned(), what }
     }
 
-    /// What is in the resources, for refusals.
+    /// Returns the names of the resources, for refusals.
     fn listed(&self) -> String {
         let entries = std::fs::read_dir(self.folder.join("resources")).into_iter().flatten().flatten();
         let mut names: Vec<String> =
@@ -110,7 +110,7 @@ impl Package {
     }
 }
 
-/// What is wrong with an archive, without the path of the copy that was looked at.
+/// Returns the fault of an archive, without the path of the copy that was read.
 fn reason(error: &fmi::Error) -> String {
     match error {
         fmi::Error::Archive { what, .. } => format!("not a usable FMU archive: {what}"),

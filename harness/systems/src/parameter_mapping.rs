@@ -162,7 +162,7 @@ fn applied(entry: &MappingEntry, parameter: &Parameter) -> Result<Mapped, String
             Written::Enumeration(taken(pairs, value)?.clone())
         }
         (Some(transformation), value) => {
-            let (found, allowed) = (transformation.word(), transformation.of());
+            let (found, allowed) = (transformation.word(), transformation.base_type());
             return Err(format!("found {found} of type {}, allowed: {allowed}", value.word()));
         }
     };
@@ -193,7 +193,7 @@ impl Transformation {
     }
 
     /// The type that it takes.
-    fn of(&self) -> &'static str {
+    fn base_type(&self) -> &'static str {
         match self {
             Self::Linear(_) => "Real",
             Self::Boolean(_) => "Boolean",

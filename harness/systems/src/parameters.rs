@@ -73,7 +73,7 @@ pub(crate) fn values(
 /// A parameter of one of the system's own connectors at a variable: a number without a unit is in the connector's.
 fn in_variables_unit(parameter: &Parameter, place: ConnectedVariable) -> Parameter {
     let value = match parameter.value {
-        Written::Real { value, unit: None } => Written::Real { value: place.linear.of(value), unit: None },
+        Written::Real { value, unit: None } => Written::Real { value: place.linear.apply(value), unit: None },
         ref other => other.clone(),
     };
     Parameter { value, ..parameter.clone() }
@@ -109,7 +109,7 @@ fn read(
             // In the unit of the target, which one of the system's own connectors may have another of.
             let linear = place.linear.inverse().then(mapped.linear).then(place.linear);
             let is_same = mapped.linear == Linear::IDENTITY;
-            Value::Real(if is_same { converted } else { linear.of(converted) })
+            Value::Real(if is_same { converted } else { linear.apply(converted) })
         }
         Written::Integer(value) => Value::Integer(*value),
         Written::Boolean(value) => Value::Boolean(*value),
@@ -152,7 +152,7 @@ fn in_own_unit(
         if !is_same_dimension(&found, &own_base) {
             return Err(format!("found unit {unit:?}, which measures something else than {own:?}"));
         }
-        return Ok(conversion(&found, &own_base).of(number));
+        return Ok(conversion(&found, &own_base).apply(number));
     }
     let displays = definition.map(|it| it.display_units.as_slice()).unwrap_or_default();
     match displays.iter().find(|display| display.name == unit) {

@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// Most components of a system: each is an instance of its FMU.
-pub const MOST_COMPONENTS: usize = 1000;
+pub const MAX_COMPONENTS: usize = 1000;
 /// The only type of component that is simulated.
 const FMU_TYPE: &str = "application/x-fmu-sharedlibrary";
 /// The only types of parameters and of mappings that are read.
@@ -91,8 +91,8 @@ fn system(
 fn elements(xml: &mut Xml<'_>, start: &Start, structure: &mut Structure) -> Result<(), ReadError> {
     while let Some(child) = xml.child(start)? {
         match local(&child) {
-            "Component" if structure.components.len() == MOST_COMPONENTS => {
-                let message = format!("one more component, allowed: at most {MOST_COMPONENTS}");
+            "Component" if structure.components.len() == MAX_COMPONENTS => {
+                let message = format!("one more component, allowed: at most {MAX_COMPONENTS}");
                 return Err(refuse(&child, message));
             }
             "Component" => structure.components.push(component(xml, &child)?),

@@ -26,7 +26,7 @@ pub(crate) struct Recorder {
 }
 
 impl Recorder {
-    /// Of variables of the system's description, by their positions.
+    /// Recorder of variables of the system's description, by their positions.
     pub(crate) fn new(system: &System, positions: &[usize]) -> Self {
         let mut groups: Vec<[Group; 4]> = system.parts().iter().map(|_| Default::default()).collect();
         let mut sizes = [0; 4];
@@ -72,7 +72,7 @@ impl Recorder {
                 }
                 for (value, linear) in self.read_reals.iter_mut().zip(&reals.linears) {
                     if *linear != Linear::IDENTITY {
-                        *value = linear.of(*value);
+                        *value = linear.apply(*value);
                     }
                 }
                 scatter(&self.read_reals, &reals.places, &mut self.reals);

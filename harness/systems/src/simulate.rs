@@ -95,7 +95,7 @@ fn own_sets(system: &System, sets: &[(String, Value)]) -> Result<Vec<(usize, Str
             own.push((
                 number,
                 system.parts()[number].fmu.description().variables[at].name.clone(),
-                place.of(value),
+                place.convert(value),
             ));
         }
     }
@@ -138,14 +138,15 @@ impl<'a> HeldInputs<'a> {
     /// The values of the start, which initialization takes.
     fn at_start(&mut self, time_s: f64) -> Vec<(usize, String, Value)> {
         let columns = self.columns.iter().zip(&self.names);
-        let at = |(column, place): (usize, ConnectedVariable)| place.of(&self.table.value(column, time_s));
+        let at =
+            |(column, place): (usize, ConnectedVariable)| place.convert(&self.table.value(column, time_s));
         columns.map(|(column, name)| (column.1.at.0, name.clone(), at(*column))).collect()
     }
 
     fn set(&mut self, running: &mut Running, time_s: f64) -> Result<(), Error> {
         for (last, (column, place)) in self.last.iter_mut().zip(&self.columns) {
             let (number, position) = place.at;
-            let value = place.of(&self.table.value(*column, time_s));
+            let value = place.convert(&self.table.value(*column, time_s));
             if last.as_ref() != Some(&value) {
                 let instance = &mut running.instances()[number];
                 let fmu = instance.fmu().clone();

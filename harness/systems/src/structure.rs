@@ -14,7 +14,7 @@ pub struct Structure {
     pub connectors: Vec<Connector>,
     /// Its components, in the order in which a master calls them.
     pub components: Vec<Component>,
-    /// What goes where.
+    /// Connections between connectors.
     pub connections: Vec<Connection>,
     /// Parameters of all components, named `component.parameter`.
     pub bindings: Vec<Binding>,
@@ -31,9 +31,9 @@ pub struct Structure {
 pub struct Component {
     /// Its name in the system.
     pub name: String,
-    /// Where its FMU is in the archive.
+    /// Path of its FMU in the archive.
     pub source: String,
-    /// What of it is shown to the system.
+    /// Connectors that it has in the system.
     pub connectors: Vec<Connector>,
     /// Its parameters.
     pub bindings: Vec<Binding>,
@@ -97,7 +97,7 @@ pub enum Signal {
     Text,
     /// An Enumeration of the system.
     Enumeration {
-        /// Which one.
+        /// Name of the enumeration.
         name: String,
     },
     /// Binary data.
@@ -130,11 +130,11 @@ pub struct Enumeration {
 /// A connection from an output to an input; the system's own inputs and outputs are seen from within.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Connection {
-    /// Where the value comes from.
+    /// End that the value comes from.
     pub start: End,
-    /// Where it goes.
+    /// End that it goes to.
     pub end: End,
-    /// What is done to it on the way.
+    /// Transformation of the value on the way.
     pub transformation: Option<Linear>,
     /// Whether units are not converted.
     pub suppress_unit_conversion: bool,

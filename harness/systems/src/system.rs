@@ -121,7 +121,7 @@ impl System {
         Ok(Self { package, structure, parts, joints, own, merged })
     }
 
-    /// What is connected and not read, with these values of `component.name` set over the system's own.
+    /// Returns the connected inputs that are not read, with these values of `component.name` set over the system's own.
     pub fn unread(&self, sets: &[(String, Value)]) -> Vec<Unread> {
         let of_part = |(number, part): (usize, &Part)| {
             let description = part.fmu.description();
@@ -181,7 +181,7 @@ impl System {
         &self.merged.description
     }
 
-    /// What a variable of [`System::description`] stands for: one variable of a component, or for an input of the system itself
+    /// Returns the variables that one of [`System::description`] stands for: one variable of a component, or for an input of the system itself
     /// all that it is connected to.
     pub fn places(&self, position: usize) -> Vec<ConnectedVariable> {
         match self.merged.origins.get(position) {

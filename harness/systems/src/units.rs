@@ -24,18 +24,18 @@ impl Linear {
     pub const IDENTITY: Self = Self { factor: 1.0, offset: 0.0 };
 
     /// The value.
-    pub fn of(self, value: f64) -> f64 {
+    pub fn apply(self, value: f64) -> f64 {
         self.factor * value + self.offset
     }
 
-    /// What undoes it.
+    /// Returns the inverse transformation.
     pub fn inverse(self) -> Self {
         Self { factor: 1.0 / self.factor, offset: -self.offset / self.factor }
     }
 
     /// First this, then another.
     pub fn then(self, next: Self) -> Self {
-        Self { factor: next.factor * self.factor, offset: next.of(self.offset) }
+        Self { factor: next.factor * self.factor, offset: next.apply(self.offset) }
     }
 }
 
@@ -52,14 +52,14 @@ mod tests {
     fn degrees_and_fahrenheit_are_converted() {
         let degree = BaseUnit { rad: 1, factor: core::f64::consts::PI / 180.0, ..BaseUnit::default() };
         let radian = BaseUnit { rad: 1, ..BaseUnit::default() };
-        assert!((conversion(&degree, &radian).of(180.0) - core::f64::consts::PI).abs() < 1e-15);
+        assert!((conversion(&degree, &radian).apply(180.0) - core::f64::consts::PI).abs() < 1e-15);
         // Water boils at 212 F, 373.15 K, 100 C.
         let fahrenheit =
             BaseUnit { k: 1, factor: 5.0 / 9.0, offset: 459.67 * 5.0 / 9.0, ..BaseUnit::default() };
         let celsius = BaseUnit { k: 1, offset: 273.15, ..BaseUnit::default() };
         let (there, back) = (conversion(&fahrenheit, &celsius), conversion(&celsius, &fahrenheit));
-        assert!((there.of(212.0) - 100.0).abs() < 1e-12);
-        assert!((there.then(back).of(50.0) - 50.0).abs() < 1e-12);
+        assert!((there.apply(212.0) - 100.0).abs() < 1e-12);
+        assert!((there.then(back).apply(50.0) - 50.0).abs() < 1e-12);
         assert!(is_same_dimension(&fahrenheit, &celsius) && !is_same_dimension(&celsius, &radian));
     }
 }

@@ -31,7 +31,7 @@ impl std::fmt::Display for Unread {
     }
 }
 
-/// What is connected in vain to a component of this description, by its options' numbers.
+/// Returns the inputs of a component of this description that are connected in vain, by its options' numbers.
 pub(crate) fn unread(
     component: &str,
     description: &Description,

@@ -22,7 +22,7 @@ use crate::{
 
 /// An input that was left open.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Left {
+pub struct OpenInput {
     /// Its component.
     pub component: String,
     /// Its name.
@@ -37,14 +37,14 @@ pub struct Wired {
     /// Its description; the connectors are what is connected, and the outputs that were requested.
     pub structure: Structure,
     /// The inputs that were left open.
-    pub left: Vec<Left>,
+    pub left: Vec<OpenInput>,
     /// Options that were set because their inputs are connected, `component.name=item`.
     pub implied: Vec<String>,
-    /// What is connected and not read.
+    /// Inputs that are connected and not read.
     pub unread: Vec<Unread>,
 }
 
-/// What is requested beside the connections of equal names.
+/// Requests beside the connections of equal names.
 #[derive(Clone, Debug, Default)]
 pub struct Wiring {
     /// Patterns of further outputs to list, `component.variable`.
@@ -127,9 +127,11 @@ pub fn wire(
                 Ok((from, output)) => {
                     connect(&mut wired.structure, components, (from, output), (number, input))
                 }
-                Err(why) => {
-                    wired.left.push(Left { component: component.clone(), input: input.name.clone(), why })
-                }
+                Err(why) => wired.left.push(OpenInput {
+                    component: component.clone(),
+                    input: input.name.clone(),
+                    why,
+                }),
             }
         }
     }
@@ -223,7 +225,7 @@ fn written(description: &Description, variable: &ScalarVariable, given: value::V
     }
 }
 
-/// What an enumeration that is not connected stands at: its parameter set's value, else its start value.
+/// Returns the item of an enumeration that is not connected: its parameter set's value, else its start value.
 fn stands_at(component: &Component, fmu: &Fmu, input: &ScalarVariable) -> String {
     let sets = component.bindings.iter().flat_map(|binding| &binding.sets);
     let set = sets.flat_map(|set| &set.parameters).find(|parameter| parameter.name == input.name);

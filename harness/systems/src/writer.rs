@@ -20,7 +20,7 @@ const PITCH_MM: usize = 100;
 /// name space.
 const OMSIMULATOR: [&str; 2] =
     ["org.openmodelica", "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd"];
-/// What its master takes for errors; a master of a fixed step makes no use of it.
+/// Tolerance of its master; a master of a fixed step does not use it.
 const OMSIMULATOR_TOLERANCE: f64 = 1e-4;
 
 /// The file of a parameter set (`.ssv`).

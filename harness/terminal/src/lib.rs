@@ -1,4 +1,4 @@
-//! What the harness shows on a terminal: text without control characters, tables, numbers, progress.
+//! Output on a terminal: text without control characters, tables, numbers, progress.
 
 // They panic when the reader went away; `print` and `note` do not.
 #![warn(clippy::print_stdout, clippy::print_stderr)]

@@ -1,4 +1,4 @@
-//! What a child process shows: its parent shows it in its place.
+//! Output of a child process, which its parent shows.
 
 use std::{
     fmt,
@@ -30,9 +30,9 @@ pub trait Relay: Send + Sync {
 /// Columns of the terminals that show output and notes; `None` where there is no terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Screen {
-    /// Of the standard output.
+    /// Width of the standard output.
     pub output_columns: Option<u16>,
-    /// Of stderr.
+    /// Width of stderr.
     pub note_columns: Option<u16>,
 }
 
@@ -43,7 +43,7 @@ pub fn relay_to(relay: Box<dyn Relay>, screen: Screen) {
     let _ = PARENT.set((relay, screen));
 }
 
-/// Where this process's output and notes are shown.
+/// Returns the screen on which this process's output and notes are shown.
 pub fn screen() -> Screen {
     if let Some((_, screen)) = PARENT.get() {
         return *screen;
@@ -87,7 +87,7 @@ pub fn show_bar(text: &str) {
     }
 }
 
-/// Where a child's progress bar is drawn.
+/// Returns the target on which a child's progress bar is drawn.
 pub(crate) fn bar_target(relay: &'static dyn Relay, columns: u16) -> ProgressDrawTarget {
     ProgressDrawTarget::term_like_with_hz(Box::new(RelayedTerminal { relay, columns }), 5)
 }
@@ -105,7 +105,7 @@ impl fmt::Debug for RelayedTerminal {
 }
 
 impl RelayedTerminal {
-    /// Moves the cursor by so many places; 0 would be taken for 1.
+    /// Moves the cursor by `places`; 0 would be taken for 1.
     fn move_cursor(&self, places: usize, letter: char) -> io::Result<()> {
         if places == 0 { Ok(()) } else { self.relay.bar(&format!("\u{1b}[{places}{letter}")) }
     }

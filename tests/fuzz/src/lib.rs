@@ -59,10 +59,10 @@ impl Subject {
         let fresh = instance.state_bytes().1;
         Self {
             instance,
-            reals: names.all(BaseType::Real),
-            integers: names.all(BaseType::Integer),
-            booleans: names.all(BaseType::Boolean),
-            strings: names.all(BaseType::String),
+            reals: names.all(BaseType::Real).to_vec(),
+            integers: names.all(BaseType::Integer).to_vec(),
+            booleans: names.all(BaseType::Boolean).to_vec(),
+            strings: names.all(BaseType::String).to_vec(),
             fresh,
         }
     }

@@ -1,4 +1,4 @@
-//! Where the values of a variable come from.
+//! Distributions of the values of a variable.
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -7,7 +7,7 @@ use statrs::distribution::{ContinuousCDF, Normal};
 pub struct Varied {
     /// Its name.
     pub name: String,
-    /// Where its values come from, in the variable's unit.
+    /// Distribution of its values, in the variable's unit.
     pub distribution: Distribution,
 }
 

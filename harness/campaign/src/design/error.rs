@@ -10,15 +10,15 @@ pub enum DesignError {
     Runs {
         /// As they were given.
         found: u64,
-        /// What the sampling takes.
+        /// Numbers of runs that the sampling takes.
         allowed: String,
     },
-    /// Nothing varies, or a list without a value.
+    /// No variable varies, or a list has no value.
     #[error("found {found}, allowed: {allowed}")]
     Empty {
-        /// What is empty.
+        /// List that is empty.
         found: String,
-        /// What is allowed.
+        /// Allowed content.
         allowed: &'static str,
     },
     /// A distribution that the sampling does not take.
@@ -30,7 +30,7 @@ pub enum DesignError {
         distribution: &'static str,
         /// The sampling's key.
         sampling: &'static str,
-        /// What it takes.
+        /// Values that it takes.
         allowed: &'static str,
     },
     /// A correlation that cannot be.

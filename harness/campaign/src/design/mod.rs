@@ -15,7 +15,7 @@ use sobol_burley::parts::sobol_rev;
 
 pub use distribution::{Distribution, Varied};
 pub use error::DesignError;
-pub use sampling::{MOST_RUNS, Sampling};
+pub use sampling::{MAX_RUNS, Sampling};
 
 /// 2^-32 and 2^-53.
 const PER_32_BITS: f64 = 1.0 / 4_294_967_296.0;
@@ -46,7 +46,7 @@ pub struct Design {
 }
 
 impl Design {
-    /// Of a campaign; grids and one-at-a-time designs have a number of runs of their own, which `runs` equals where it is given.
+    /// Design of a campaign; grids and one-at-a-time designs have a number of runs of their own, which `runs` equals where it is given.
     ///
     /// # Errors
     /// What cannot be drawn from.

@@ -5,11 +5,11 @@ use sobol_burley::NUM_DIMENSIONS;
 use super::{distribution::Varied, error::DesignError};
 
 /// Runs of a campaign at most.
-pub const MOST_RUNS: u64 = 1_000_000_000;
-/// Points of the Sobol sequence, of which the crate has so many.
-const MOST_SOBOL_RUNS: u64 = 1 << 16;
+pub const MAX_RUNS: u64 = 1_000_000_000;
+/// Number of points of the Sobol sequence that the crate has.
+const MAX_SOBOL_RUNS: u64 = 1 << 16;
 /// Strata of a Latin hypercube, of all variables together: every process holds them in 4 bytes each.
-const MOST_STRATA: u64 = 1 << 25;
+const MAX_STRATA: u64 = 1 << 25;
 
 /// How the values of runs are chosen.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,9 +78,9 @@ impl Sampling {
             Self::Random | Self::LatinHypercube | Self::Sobol => None,
         };
         let most = match self {
-            Self::Sobol => MOST_SOBOL_RUNS,
-            Self::LatinHypercube => MOST_STRATA / (varied.len() as u64).max(1),
-            _ => MOST_RUNS,
+            Self::Sobol => MAX_SOBOL_RUNS,
+            Self::LatinHypercube => MAX_STRATA / (varied.len() as u64).max(1),
+            _ => MAX_RUNS,
         };
         let runs = match (own, given) {
             (Some(own), Some(found)) if own != found => {

@@ -42,15 +42,15 @@ const MESSAGES: usize = 1000;
 /// Visits taken at most: a timeline has 10,000 commands, each with an end before the next one begins.
 const VISITS: usize = 20_001;
 
-/// What came of a simulation.
+/// Result of a simulation.
 pub(super) struct SimulationResult {
     /// Why it ended.
     pub outcome: Result<Ended, String>,
-    /// What the instance logged.
+    /// Messages of the instance's log.
     pub messages: Vec<LogMessage>,
     /// Visits of a flight by a timeline.
     pub visits: Vec<Visit>,
-    /// What went wrong after a good end.
+    /// Fault after a good end.
     pub fault: Option<String>,
 }
 
@@ -62,7 +62,7 @@ pub(super) fn start(subject: &Subject, input_copy: Option<&Path>) -> io::Result<
     ChildProcess::new(own.chain(std::env::args_os().skip(2)), large(1), None)
 }
 
-/// Takes what the child process sends for so many points, each FMI call within its bounds. `tick` is shown the recording so far and the beginning of
+/// Takes the rows of the child process up to the last point, each FMI call within its bounds. `tick` is shown the recording so far and the beginning of
 /// the step in progress.
 pub(super) fn simulate(
     child: ChildProcess,
@@ -125,7 +125,7 @@ impl Inbox<'_> {
                 self.messages.push(message(&mut payload).ok_or(NOT_REQUESTED)?);
             }
             VISIT if self.visits.len() < VISITS => {
-                self.visits.push(Visit::of(&mut payload).ok_or(NOT_REQUESTED)?);
+                self.visits.push(Visit::read(&mut payload).ok_or(NOT_REQUESTED)?);
             }
             ENDED => {
                 let ended =
@@ -214,13 +214,13 @@ pub fn run(arguments: &RunInChild) -> Outcome {
 
 fn simulation(arguments: &RunInChild, link: &mut Link) -> Result<Simulation, Box<dyn std::error::Error>> {
     let subject = Subject::open(&arguments.unpacked_in)?;
-    let simulated = Simulated::of(&arguments.run)?;
-    let settings = Settings::of(&subject, &simulated, arguments.input_copy.as_deref())?;
+    let simulated = Simulated::new(&arguments.run)?;
+    let settings = Settings::new(&subject, &simulated, arguments.input_copy.as_deref())?;
     let cancel_word = link.cancel_word();
     let cancel = AtomicBool::new(false);
     let mut check_cancel = |_: f64| cancel.store(cancel_word.load(Ordering::Relaxed) != 0, Ordering::Relaxed);
     check_cancel(0.0);
-    let mut visits = Visits::of(&subject, &settings);
+    let mut visits = Visits::new(&subject, &settings);
     let watcher = visits.as_mut().map(|visits| visits as &mut dyn Watcher);
     let watched = (&mut check_cancel as &mut dyn FnMut(f64), &cancel, watcher);
     let ran = settings.simulate_into(&subject, &simulated.run, watched, &mut RowSender(link));

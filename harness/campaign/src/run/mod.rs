@@ -30,25 +30,25 @@ pub use subject::Subject;
 use tables::output::{self, Known, LimitChecks, Origin, Outputs, VisitTable};
 
 /// Warnings of an FMU that are shown without `--log`.
-const MOST_WARNINGS: usize = 20;
+const MAX_WARNINGS: usize = 20;
 
 /// Why a run ends before its stop.
 const LOST_READER: &str = "nobody reads the standard output any more";
 
-/// A run of which everything was accepted that can be refused without the FMU's library.
+/// A run whose arguments were accepted as far as they can be judged without the FMU's library.
 pub struct Prepared {
     /// The arguments and the mission.
     pub simulated: Simulated,
-    /// What is run.
+    /// FMU or system that is run.
     pub subject: Subject,
-    /// What they mean.
+    /// Resolved arguments.
     pub settings: Settings,
     /// Points that will be recorded.
     pub points: u64,
     outputs: Outputs,
     /// File of the visits.
     visits: Option<Destination>,
-    /// What the standard input held, for parent and child.
+    /// Contents of the standard input, for parent and child.
     input_copy: Option<PathBuf>,
     // The packed FMU of a mission and the copy, as long as they are in use.
     _scratch: [Option<Scratch>; 2],
@@ -59,20 +59,20 @@ impl Prepared {
     ///
     /// # Errors
     /// Whatever is refused, by the flag or the mission's line.
-    pub fn of(arguments: &Run) -> Result<Self, Box<dyn Error>> {
+    pub fn new(arguments: &Run) -> Result<Self, Box<dyn Error>> {
         if let Some(path) = &arguments.plot {
             inputs::svg_path::check_svg_path(path, "--plot")?;
         }
-        let simulated = Simulated::of(arguments)?;
+        let simulated = Simulated::new(arguments)?;
         let (subject, packed) = simulated.open()?;
         subject.check_options(&simulated.run)?;
         let copied =
             copied_input(&simulated.run).map_err(|error| format!("standard input: {error}: see --input"))?;
         let (copy, input_copy) = copied.unzip();
-        let settings = Settings::of(&subject, &simulated, input_copy.as_deref())?;
+        let settings = Settings::new(&subject, &simulated, input_copy.as_deref())?;
         subject.check_libraries()?;
         let described = subject.description();
-        let known = Known::of(&subject.parts(), described, &settings.sets, &settings.limits)
+        let known = Known::new(&subject.parts(), described, &settings.sets, &settings.limits)
             .dated(epoch::zero_epoch_s(described, &settings.sets, settings.times.start_s));
         let collector = Collector::new(described, &settings.positions);
         let origin = Origin {
@@ -119,7 +119,7 @@ pub fn long_step(times: &Times) -> Option<String> {
 
 /// Runs in a child process.
 pub fn run(arguments: &Run) -> Outcome {
-    let prepared = Prepared::of(arguments)?;
+    let prepared = Prepared::new(arguments)?;
     let Prepared { simulated, subject, settings, points, mut outputs, visits, input_copy, _scratch } =
         prepared;
     let arguments = &simulated.run;
@@ -160,8 +160,8 @@ pub fn run(arguments: &Run) -> Outcome {
     checks.update(recording);
     let logged = fmi::warnings(&result.messages);
     if !arguments.quiet && !arguments.log {
-        logged.iter().take(MOST_WARNINGS).for_each(|text| terminal::note(&format!("warning: {text}")));
-        if let Some(more) = logged.len().checked_sub(MOST_WARNINGS).filter(|more| *more > 0) {
+        logged.iter().take(MAX_WARNINGS).for_each(|text| terminal::note(&format!("warning: {text}")));
+        if let Some(more) = logged.len().checked_sub(MAX_WARNINGS).filter(|more| *more > 0) {
             terminal::note(&format!("warning: {more} more: see --log"));
         }
     }

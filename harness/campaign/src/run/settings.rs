@@ -1,4 +1,4 @@
-//! What the arguments of `heliotorque run` mean for an FMU or a system.
+//! Arguments of `heliotorque run` resolved for an FMU or a system.
 
 use std::{path::Path, sync::atomic::AtomicBool};
 
@@ -16,7 +16,7 @@ use tables::output::{OutputFile, Plot, Requested};
 
 use super::{options::Run, simulated::Simulated, subject::Subject};
 
-/// What the arguments mean for an FMU or a system.
+/// Arguments resolved for an FMU or a system.
 pub struct Settings {
     /// Start, stop and step.
     pub times: Times,
@@ -24,17 +24,17 @@ pub struct Settings {
     pub sets: Vec<(String, fmi::Value)>,
     /// Inputs over time.
     pub inputs: Option<InputTable>,
-    /// What is recorded.
+    /// Recorded variables, by their positions.
     pub positions: Vec<usize>,
-    /// What is written.
+    /// Requested outputs.
     pub requested: Requested,
-    /// What the run is judged by.
+    /// Limits by which the run is judged.
     pub limits: Vec<Limit>,
 }
 
 impl Settings {
-    /// Of the arguments and the mission; the error names the flag or the line. What `--input` names may stand in a copy.
-    pub fn of(
+    /// Resolves the arguments and the mission; the error names the flag or the line. The file of `--input` may stand in a copy.
+    pub fn new(
         subject: &Subject,
         simulated: &Simulated,
         input_copy: Option<&Path>,
@@ -121,7 +121,7 @@ impl Settings {
         allowed: &str,
     ) -> Result<(Fmu, Self, Option<Scratch>), Box<dyn std::error::Error>> {
         let (subject, folder) = simulated.open()?;
-        let settings = Self::of(&subject, simulated, None)?;
+        let settings = Self::new(&subject, simulated, None)?;
         let Subject::Fmu(fmu) = subject else {
             let file = simulated.run.fmu.display();
             return Err(format!("{file}: found a system, allowed: {allowed}").into());
@@ -170,7 +170,7 @@ fn read_table(
     at: &Path,
 ) -> Result<InputTable, Box<dyn std::error::Error>> {
     let in_file = |error: &dyn std::error::Error| format!("{}: {}", path.display(), fmi::Error::chain(error));
-    let file = files::open_at_most(at, files::MOST_TABLE_BYTES)
+    let file = files::open_at_most(at, files::MAX_TABLE_BYTES)
         .map_err(|error| format!("{}: see --input", in_file(&error)))?;
     let mut rows = fmi::csv::read_rows(file).map_err(|error| in_file(&error))?;
     let header = if rows.is_empty() { Vec::new() } else { rows.remove(0) };

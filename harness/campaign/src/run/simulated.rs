@@ -1,4 +1,4 @@
-//! What a run simulates: the arguments of `heliotorque run` over those of a mission, and the FMU packed from its files.
+//! Subject of a run: the arguments of `heliotorque run` over those of a mission, and the FMU packed from its files.
 
 use std::{error::Error, ffi::OsString, path::Path, process::ExitCode};
 
@@ -27,7 +27,7 @@ pub struct Simulated {
 
 impl Simulated {
     /// Reads the mission if the arguments name one.
-    pub fn of(arguments: &Run) -> Result<Self, String> {
+    pub fn new(arguments: &Run) -> Result<Self, String> {
         let is_toml = |path: &Path| path.extension().is_some_and(|extension| extension == "toml");
         if !is_toml(&arguments.fmu) {
             if arguments.template.is_some() {

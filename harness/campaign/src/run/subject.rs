@@ -1,4 +1,4 @@
-//! What is run: an FMU, or a system of FMUs. Both have a description, times, and rows to record.
+//! Subject of a run: an FMU, or a system of FMUs. Both have a description, times, and rows to record.
 
 use std::{
     error::Error,
@@ -12,7 +12,7 @@ use systems::System;
 
 use super::options::Run;
 
-/// What is run.
+/// FMU or system that is run.
 pub enum Subject {
     /// An FMU.
     Fmu(Fmu),
@@ -56,12 +56,12 @@ impl Subject {
         Ok(())
     }
 
-    /// What the variables of each FMU begin with, and the folder it is unpacked in.
+    /// Returns the prefix of each FMU's variables, and the folder it is unpacked in.
     pub fn parts(&self) -> Vec<(String, PathBuf)> {
         self.fmus().into_iter().map(|(prefix, fmu)| (prefix, fmu.folder().to_owned())).collect()
     }
 
-    /// What the variables of each FMU begin with.
+    /// Returns the prefix of each FMU's variables.
     pub fn fmus(&self) -> Vec<(String, &Fmu)> {
         match self {
             Self::Fmu(fmu) => vec![(String::new(), fmu)],
@@ -79,7 +79,7 @@ impl Subject {
         }
     }
 
-    /// What is connected and not read, a line for each option.
+    /// Returns the inputs that are connected and not read, a line for each option.
     pub fn unread(&self, sets: &[(String, Value)]) -> Vec<String> {
         match self {
             Self::Fmu(_) => Vec::new(),
@@ -123,7 +123,7 @@ impl Subject {
             None => None,
         };
         Ok(match self {
-            Self::Fmu(fmu) => Times::of(fmu, start, stop_s, step)?,
+            Self::Fmu(fmu) => Times::from_fmu(fmu, start, stop_s, step)?,
             Self::System(system) => system.times(start, stop_s, step)?,
         })
     }

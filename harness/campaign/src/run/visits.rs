@@ -59,14 +59,14 @@ pub(crate) struct Visits {
     counts: bool,
     stop_s: f64,
     open: Option<Open>,
-    /// Those that are over.
+    /// Visits that are over.
     closed: Vec<Visit>,
 }
 
 impl Visits {
     /// For an FMU that flies by a timeline with commands and tells its momentum; `None` for others, and where on-times of thrusters
     /// are given, which count from the beginning of each step.
-    pub(crate) fn of(subject: &Subject, settings: &Settings) -> Option<Self> {
+    pub(crate) fn new(subject: &Subject, settings: &Settings) -> Option<Self> {
         let Subject::Fmu(fmu) = subject else { return None };
         let (description, stop_s) = (fmu.description(), settings.times.stop_s);
         let has_commands = carried::timeline::names(fmu.folder()).is_some_and(|names| !names.is_empty());

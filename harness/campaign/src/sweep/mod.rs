@@ -57,7 +57,7 @@ pub fn checked(path: &Path, library: Library<'_>) -> Result<String, Box<dyn Erro
     let file = CampaignFile::read(path)?;
     let unjudged = library.unjudged(&file.simulated)?;
     if unjudged.is_none() {
-        Accepted::of(&file, library.template(), None)?;
+        Accepted::new(&file, library.template(), None)?;
     }
     let runs = file.runs.as_ref().map_or_else(String::new, |at| format!("{} runs, ", at.it));
     let varied = file.vary.len();
@@ -71,7 +71,7 @@ pub fn checked(path: &Path, library: Library<'_>) -> Result<String, Box<dyn Erro
 pub fn run(arguments: &Sweep) -> Outcome {
     let file = CampaignFile::read(&arguments.campaign)?;
     let Accepted { campaign, runs, fmu, _scratch } =
-        Accepted::of(&file, arguments.template.as_deref(), arguments.runs.as_ref())?;
+        Accepted::new(&file, arguments.template.as_deref(), arguments.runs.as_ref())?;
     if !arguments.quiet {
         let Settings { inputs, times, .. } = &campaign.settings;
         let warnings = inputs.iter().flat_map(|it| it.warnings(fmu.description(), times));
@@ -95,7 +95,7 @@ impl Accepted {
     ///
     /// # Errors
     /// Whatever is refused, by the flag or the campaign's line.
-    fn of(
+    fn new(
         file: &CampaignFile,
         template: Option<&Path>,
         runs: Option<&Range<u64>>,
@@ -129,7 +129,7 @@ fn print_values(started: &Started<'_>, folder: &Path) -> Outcome {
         runs.clone().try_for_each(|run| writeln!(to, "{}", table::values(campaign, run)))
     })?;
     if !is_stdout {
-        let digests = Digests::of(file, campaign, folder, runs)?;
+        let digests = Digests::new(file, campaign, folder, runs)?;
         let beside = Destination::open(&sidecar_of(output), OPTION, &started.inputs())?;
         started.write_beside(beside, &digests)?;
     }
@@ -138,7 +138,7 @@ fn print_values(started: &Started<'_>, folder: &Path) -> Outcome {
 
 fn carry_out(started: &Started<'_>, folder: &Path) -> Outcome {
     let Started { arguments, file, campaign, described, runs } = started;
-    let digests = Digests::of(file, campaign, folder, runs)?;
+    let digests = Digests::new(file, campaign, folder, runs)?;
     let files = match CampaignFiles::open(started, &digests)? {
         Opened::Begun(files) => files,
         Opened::Complete(counts) => return complete(started, &counts),
@@ -171,7 +171,7 @@ fn carry_out(started: &Started<'_>, folder: &Path) -> Outcome {
     let began = Instant::now();
     let progress = terminal::progress(runs.end - runs.start, "runs", arguments.quiet);
     progress.set_position(done);
-    let mut taken = Taken { counts, sample: Sample::of(&pool), killed: Vec::new() };
+    let mut taken = Taken { counts, sample: Sample::new(&pool), killed: Vec::new() };
     for run in again {
         simulate(&pool.alone(run, Attempt::Again), &mut table, (&mut taken, &progress))?;
     }

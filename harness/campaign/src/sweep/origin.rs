@@ -1,4 +1,4 @@
-//! Where a table of runs comes from, as TOML beside it, and the digests by which a sweep is taken up again.
+//! Origin of a table of runs, as TOML beside it, and the digests by which a sweep is taken up again.
 
 use std::{fs, io, ops::Range, path::Path};
 
@@ -21,9 +21,9 @@ const HEAD: &str =
 /// Digests of what a table comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Digests {
-    /// Of the campaign, its mission and their tables.
+    /// Digest of the campaign, its mission and their tables.
     pub campaign: String,
-    /// Of all files of the FMU.
+    /// Digest of all files of the FMU.
     pub fmu: String,
     /// The runs that the table has.
     pub runs: Range<u64>,
@@ -32,7 +32,7 @@ pub(super) struct Digests {
 impl Digests {
     /// # Errors
     /// A file that cannot be read.
-    pub(super) fn of(
+    pub(super) fn new(
         file: &CampaignFile,
         campaign: &Campaign,
         folder: &Path,
@@ -52,7 +52,7 @@ impl Digests {
         Ok(Self { campaign: digest(&bytes), fmu: digest(&all), runs: runs.clone() })
     }
 
-    /// Of the text beside a table.
+    /// Reads the digests from the text beside a table.
     pub(super) fn read(text: &str) -> Option<Self> {
         let document: DocumentMut = text.parse().ok()?;
         let digest = |key: &str| Some(document.get("digests")?.get(key)?.as_str()?.to_owned());

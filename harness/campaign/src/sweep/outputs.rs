@@ -66,7 +66,7 @@ impl CampaignFiles {
     /// Opens them, so that nothing is refused once runs are simulated.
     ///
     /// # Errors
-    /// A file that is an input, lies elsewhere, is another sweep's, or holds runs of this campaign that nobody gave up.
+    /// A file that is an input, lies elsewhere, belongs to a different sweep, or holds runs of this campaign that were not given up.
     pub(super) fn open(started: &Started<'_>, digests: &Digests) -> Result<Opened, String> {
         let Started { arguments, runs, .. } = started;
         let output = arguments.output.as_path();

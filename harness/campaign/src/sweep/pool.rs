@@ -30,14 +30,14 @@ use crate::run::take_row;
 /// Begins the reason of a run whose process was killed from outside, which says nothing of the run.
 pub(super) const KILLED: &str = "killed from outside";
 
-/// What came of a run.
+/// Result of a run.
 #[derive(Clone)]
 pub(super) struct RunResult {
     pub run: u64,
     pub status: RunStatus,
     /// Why it is not ok.
     pub reason: String,
-    /// What is kept, as named by its columns.
+    /// Kept numbers, as named by the columns.
     pub numbers: Vec<f64>,
     /// Whether its instance had simulated another run and was reset.
     pub was_reset: bool,
@@ -61,7 +61,7 @@ pub(super) enum Attempt {
     Afresh,
 }
 
-/// What the processes have in common.
+/// Common data of the processes.
 pub(super) struct Pool<'a> {
     pub file: &'a Path,
     pub campaign: &'a Campaign,

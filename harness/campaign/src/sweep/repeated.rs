@@ -17,7 +17,7 @@ use super::{
 /// Runs that are repeated at most, one a process.
 const MOST: u64 = 4;
 
-/// Runs of which what was kept is held against a simulation in a process of its own.
+/// Runs whose kept results are compared with a simulation in a process of its own.
 pub(super) struct Sample {
     runs: Vec<u64>,
     results: Vec<RunResult>,
@@ -25,7 +25,7 @@ pub(super) struct Sample {
 
 impl Sample {
     /// Evenly spaced, the last one among them: as many as there are processes.
-    pub(super) fn of(pool: &Pool<'_>) -> Self {
+    pub(super) fn new(pool: &Pool<'_>) -> Self {
         let runs = &pool.runs;
         let count = runs.end - runs.start;
         let sampled = pool.workers.min(MOST).min(count);

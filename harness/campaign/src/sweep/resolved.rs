@@ -1,4 +1,4 @@
-//! What a campaign means for the FMU that it simulates: the values of its runs, and what is recorded.
+//! Campaign resolved for the FMU that it simulates: the values of its runs, and the recorded variables.
 
 use std::{error::Error, ops::Range, path::Path};
 
@@ -21,9 +21,9 @@ use crate::{
 };
 
 /// Numbers that percentiles are made of at most.
-const MOST_NUMBERS: u64 = 100_000_000;
+const MAX_NUMBERS: u64 = 100_000_000;
 
-/// What is recorded of a run. Columns are positions in `positions`.
+/// Recorded variables of a run. Columns are positions in `positions`.
 #[derive(Default)]
 pub(super) struct Kept {
     /// Recorded variables, those of histories first.
@@ -80,7 +80,7 @@ pub(super) struct Campaign {
     pub design: Design,
     /// Positions of the variables that vary.
     pub varied: Vec<usize>,
-    /// What is recorded.
+    /// Recorded variables.
     pub kept: Kept,
     /// Points at which percentiles have a row.
     pub percentile_points: RecordedPoints,
@@ -90,7 +90,7 @@ pub(super) struct Campaign {
 
 /// The run that the runs of a campaign are like.
 pub(super) fn simulated(campaign: &CampaignFile, template: Option<&Path>) -> Result<Simulated, String> {
-    Simulated::of(&Run {
+    Simulated::new(&Run {
         fmu: campaign.simulated.clone(),
         start: campaign.start_s,
         stop: campaign.stop_s.map(Instant::Time),
@@ -112,7 +112,7 @@ impl Campaign {
         subject: &Subject,
     ) -> Result<Self, Box<dyn Error>> {
         let described = subject.description();
-        let settings = Settings::of(subject, &simulated, None)?;
+        let settings = Settings::new(subject, &simulated, None)?;
         let written = simulated.mission.iter().flat_map(|mission| mission.settings(described));
         let written: Vec<String> = written.map(|(_, setting)| setting).collect();
         let dates = Dates::new(described, written.iter().map(String::as_str), Some(settings.times.start_s));
@@ -163,9 +163,9 @@ impl Campaign {
         runs: &Range<u64>,
     ) -> Result<(), String> {
         let numbers = (runs.end - runs.start).saturating_mul(self.numbers_per_run() as u64);
-        if numbers > MOST_NUMBERS {
+        if numbers > MAX_NUMBERS {
             return Err(format!(
-                "{}: keep.percentiles: found {numbers} numbers, allowed: up to {MOST_NUMBERS}: a larger `every`, fewer names or runs",
+                "{}: keep.percentiles: found {numbers} numbers, allowed: up to {MAX_NUMBERS}: a larger `every`, fewer names or runs",
                 file.file.display()
             ));
         }
@@ -199,7 +199,7 @@ impl Reader<'_> {
         self.described.variables.iter().position(|variable| variable.name == name)
     }
 
-    /// What varies, by the names that the FMU has.
+    /// Varied values, by the names that the FMU has.
     fn varied(&self) -> Result<(Vec<Varied>, Sampling), String> {
         let sampling = match self.file.sampling.it {
             SamplingWord::Random => Sampling::Random,
@@ -314,8 +314,8 @@ impl Reader<'_> {
     fn table(&self) -> Result<(Vec<Varied>, Sampling), String> {
         let path = self.file.table.as_deref().unwrap_or(Path::new(""));
         let shown = path.display();
-        let open = files::open_at_most(path, files::MOST_TABLE_BYTES)
-            .map_err(|error| format!("{shown}: {error}"))?;
+        let open =
+            files::open_at_most(path, files::MAX_TABLE_BYTES).map_err(|error| format!("{shown}: {error}"))?;
         let mut rows = fmi::csv::read_rows(open).map_err(|error| format!("{shown}: {error}"))?;
         if rows.len() < 2 {
             let allowed = "a header with names of variables and a row a run";

@@ -30,7 +30,7 @@ impl Series {
     /// Series of runs from `first` on, next to the table that is made of them.
     ///
     /// # Errors
-    /// A file that is an input, cannot be written, or is another sweep's.
+    /// A file that is an input, cannot be written, or belongs to a different sweep.
     pub(super) fn open(
         output: Destination,
         first: u64,

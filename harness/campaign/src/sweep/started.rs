@@ -1,4 +1,4 @@
-//! Campaign of which everything was accepted, and how its runs ended.
+//! Campaign whose arguments were accepted, and how its runs ended.
 
 use std::{ops::Range, path::Path, process::ExitCode};
 
@@ -16,7 +16,7 @@ use super::{
 /// Option that names the table.
 pub(super) const OPTION: &str = "--output";
 
-/// A campaign of which everything was accepted.
+/// A campaign whose arguments were accepted.
 pub(super) struct Started<'a> {
     pub arguments: &'a Sweep,
     pub file: &'a CampaignFile,

@@ -20,7 +20,7 @@ pub(super) fn run(arguments: &Check) -> Outcome {
         let allowed = "a spacecraft, a spinner, a mission, a timeline, an ephemeris, a plan, a leg or a campaign: see `heliotorque new`";
         return Err(format!("{file}: found an empty file, allowed: {allowed}").into());
     }
-    let kind = FileKind::of(&text).unwrap_or(FileKind::Spacecraft);
+    let kind = FileKind::recognize(&text).unwrap_or(FileKind::Spacecraft);
     let library = Library::new(arguments.template.as_deref());
     let chain = |error: Box<dyn Error>| fmi::Error::chain(error.as_ref());
     let read = match kind {

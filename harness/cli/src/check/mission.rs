@@ -17,7 +17,7 @@ pub(super) fn checked(arguments: &Check) -> Result<String, String> {
 
 fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
     let run = Run { fmu: arguments.subject.clone(), template: arguments.template.clone(), ..Run::default() };
-    let Prepared { simulated, subject, settings, .. } = &Prepared::of(&run)?;
+    let Prepared { simulated, subject, settings, .. } = &Prepared::new(&run)?;
     let Settings { times, requested, limits, sets, positions, inputs, .. } = settings;
     let mut rows = Collector::new(subject.description(), positions);
     // Ended after the first step.

@@ -89,7 +89,7 @@ pub(crate) fn run(arguments: &Check) -> Outcome {
     if !panels.is_empty() {
         sections.push(Section::new("panels", panels.into_iter().map(Finding::note).collect()));
     }
-    sections.extend(carried::of(&fmu).into_iter().map(|(file, read)| match read {
+    sections.extend(carried::summaries(&fmu).into_iter().map(|(file, read)| match read {
         Ok(summary) => Section::new(file, vec![Finding::good(summary)]),
         Err(problems) => Section::new(file, problems.lines().map(Finding::bad).collect()),
     }));

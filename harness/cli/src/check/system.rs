@@ -5,7 +5,7 @@ use std::path::Path;
 use fmi::conformance::Finding;
 use systems::System;
 
-/// What is found of a system; its FMUs are checked one by one by themselves.
+/// Returns the findings of a system; its FMUs are checked one by one by themselves.
 pub(super) fn findings(path: &Path) -> Vec<Finding> {
     let system = match System::open(path) {
         Ok(system) => system,

@@ -23,7 +23,7 @@ pub(crate) fn run(arguments: &Compare) -> Outcome {
     let [first, second] = inputs.map(Table::read);
     let (first, second) = (first?, second?);
     let sidecar = Sidecar::beside(&first.path)?;
-    let pairing = Pairing::of(&first, &second)?;
+    let pairing = Pairing::new(&first, &second)?;
     let mut found = fmi::reference::differences(&pairing.columns);
     found.sort_by(|a, b| b.fraction.total_cmp(&a.fraction));
     let tables = [&first, &second];

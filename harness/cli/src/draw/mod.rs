@@ -15,7 +15,7 @@ use packing::check::DEFAULT_SPACECRAFT;
 pub(crate) use options::Draw;
 use options::ViewKind;
 
-/// Where the shipped spacecraft is drawn.
+/// Name of the picture of the shipped spacecraft.
 const DEFAULT_NAME: &str = "messenger";
 
 /// Draws the file, or the shipped spacecraft.

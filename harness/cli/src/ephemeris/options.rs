@@ -108,13 +108,13 @@ pub(crate) enum BodyKind {
 }
 
 /// Longest span, in years: what is fitted is in memory whole.
-const MOST_YEARS: f64 = 100.0;
+const MAX_YEARS: f64 = 100.0;
 
 fn check_span(option: &str, written: &str, span_s: f64) -> Result<(), String> {
     let years = span_s / (365.25 * DAY_S);
-    let is_allowed = years <= MOST_YEARS;
+    let is_allowed = years <= MAX_YEARS;
     is_allowed.then_some(()).ok_or_else(|| {
-        format!("{option}: found {written:?}, {years:.0} years after --start, allowed: up to {MOST_YEARS}")
+        format!("{option}: found {written:?}, {years:.0} years after --start, allowed: up to {MAX_YEARS}")
     })
 }
 
@@ -184,7 +184,7 @@ impl Ephemeris {
         Ok(until_s)
     }
 
-    /// What is fitted, each once.
+    /// Bodies that are fitted, each once.
     fn targets(&self) -> Vec<OnboardTarget> {
         let mut targets = Vec::new();
         for kind in &self.bodies {

@@ -130,7 +130,7 @@ fn summary(fmu: &Fmu) -> String {
         let requirements = read.map_or_else(|error| error.to_string(), |it| it.to_string());
         row(&path.display().to_string(), Some(requirements));
     }
-    for (file, read) in carried::of(fmu) {
+    for (file, read) in carried::summaries(fmu) {
         let problems =
             |problems: String| format!("with {} problems: see `heliotorque check`", problems.lines().count());
         row(file.trim_end_matches(".toml"), Some(read.unwrap_or_else(problems)));

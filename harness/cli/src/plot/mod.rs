@@ -13,7 +13,7 @@ use inputs::{svg_path::check_svg_path, values};
 pub(crate) use options::Plot;
 use tables::table::{Sidecar, TIME, Table};
 
-/// Where a table without a name is drawn.
+/// Name of the picture of a table without a name.
 const DEFAULT_NAME: &str = "plot";
 
 /// Draws.
@@ -35,7 +35,7 @@ pub(crate) fn run(arguments: &Plot) -> Outcome {
     outcome::written(destination, svg.as_bytes(), &format!("{}: of {rows} rows", path.display()))
 }
 
-/// What is requested.
+/// Requested pictures.
 fn pictures(arguments: &Plot, tables: &[(Table, Sidecar)]) -> Result<Vec<Box<dyn Picture>>, String> {
     let one = |option: &str| match tables {
         [(table, sidecar)] => Ok((table, sidecar)),

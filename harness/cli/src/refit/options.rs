@@ -71,7 +71,7 @@ impl Refit {
     }
 }
 
-/// A standard deviation: nothing is known for certain.
+/// Reads a standard deviation, which is above 0.
 fn deviation(text: &str) -> Result<f64, String> {
     values::number(text, |value| value > 0.0, "a number above 0")
 }

@@ -27,9 +27,9 @@ pub(crate) enum SchemaKind {
     Ephemeris,
     /// How far arrays and attitude may go.
     Plan,
-    /// Where and when a leg begins, and the encounter that it leads to.
+    /// Departure of a leg, and the encounter that it leads to.
     Leg,
-    /// What varies over many runs, and what is kept of each.
+    /// Values that vary over many runs, and results that are kept of each.
     Campaign,
 }
 

@@ -134,7 +134,7 @@ fn misfits(fmu: &Fmu) -> impl Iterator<Item = String> {
     })
 }
 
-/// What was connected between which components, and what was left open and why.
+/// Report of the connections between components, and of inputs left open with the reason.
 fn report(wired: &Wired) -> String {
     let mut lines = vec![format!("{} connections", wired.structure.connections.len())];
     for ((from, to), names) in grouped(wired.structure.connections.iter().map(|connection| {

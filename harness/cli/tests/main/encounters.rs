@@ -118,7 +118,7 @@ impl Leg {
         ];
         let sets: Vec<(String, Value)> = sets.map(|(name, value)| (name.to_owned(), value)).to_vec();
         let values = StartValues { description: fmu.description(), sets: &sets };
-        let mut force_model = ForceModel::of(&values, 0.0).unwrap();
+        let mut force_model = ForceModel::new(&values, 0.0).unwrap();
         force_model.lead_s = LEAD_S;
         let spacecraft = fs::read_to_string("../../fmu-src/resources/messenger.toml").unwrap();
         let spacecraft = plant::spacecraft("messenger.toml", &spacecraft).unwrap();

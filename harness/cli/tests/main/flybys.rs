@@ -22,9 +22,81 @@ fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|it| it.as_f64().unwrap()).collect()
 }
 
-/// Momentum of the shipped leg planned in windows of ten days, and the leg to 200 km with that plan: `leg/mission.toml`.
-fn led(folder: &Path, template: &Path, momentum: &str) {
+/// An error of the velocity at a departure on the leg to the second flyby, and when its correction begins.
+struct Departure {
+    /// Date, and the days from the shipped leg's departure to it.
+    date: &'static str,
+    after_d: u32,
+    /// Error along X.
+    error_m_s: f64,
+    corrected_from: &'static str,
+    /// Range of the miss along T that the error leads to.
+    miss_m: std::ops::Range<f64>,
+}
+
+/// Paper 003: 170 km, corrected from 111 d before on.
+const OF_THE_PAPER: Departure = Departure {
+    date: "2008-03-19T00:00:00 UTC",
+    after_d: 0,
+    error_m_s: 0.0404,
+    corrected_from: "2008-06-17 UTC",
+    miss_m: -1.9e5..-1.5e5,
+};
+
+/// The same in the last quarter of the leg: 40 km, corrected from 40 d before on.
+const LATE: Departure = Departure {
+    date: "2008-08-16T00:00:00 UTC",
+    after_d: 150,
+    error_m_s: -0.02,
+    corrected_from: "2008-08-27 UTC",
+    miss_m: -4.5e4..-3.5e4,
+};
+
+/// The leg to the second flyby from a departure on: mission and leg begin where the shipped mission is then.
+fn leg_from(folder: &Path, template: &Path, departure: &Departure) {
     flyby(folder, 2, &[]);
+    if departure.after_d == 0 {
+        return;
+    }
+    let stop = format!("{}d", departure.after_d);
+    let output = folder.join("state.csv");
+    let arguments =
+        ["--record", "position,velocity", "--every", &stop, "--output", shown(&output), "--quiet"];
+    let mission = folder.join("flyby.toml");
+    run(
+        &[&["run", shown(&mission), "--template", shown(template), "--stop", &stop][..], &arguments].concat(),
+        0,
+    );
+    let state = |name: &str| {
+        let names = [1, 2, 3].map(|axis| format!("{name}[{axis}]"));
+        columns(&output, &names.each_ref().map(String::as_str)).pop().unwrap()
+    };
+    let (position, velocity) = (state("position"), state("velocity"));
+    let replaced = |file: &str, values: &[(&str, String)]| {
+        let text = fs::read_to_string(folder.join(file)).unwrap();
+        let line = |line: &str| {
+            let value = values.iter().find(|(key, _)| line.starts_with(&format!("{key} = ")));
+            value.map_or_else(|| line.to_owned(), |(key, value)| format!("{key} = {value}"))
+        };
+        fs::write(folder.join(file), text.lines().map(line).collect::<Vec<_>>().join("\n")).unwrap();
+    };
+    let date = format!("{:?}", departure.date);
+    let mission = [
+        ("start", date.clone()),
+        ("stop", format!("\"{} d\"", 203 - departure.after_d)),
+        ("\"orbit.position\"", format!("{position:?}")),
+        ("\"orbit.velocity\"", format!("{velocity:?}")),
+    ];
+    replaced("flyby.toml", &mission);
+    let leg = fs::read_to_string(folder.join("leg.toml")).unwrap();
+    let leg = leg.replace(&format!("at = {:?}", OF_THE_PAPER.date), &format!("at = {date}"));
+    fs::write(folder.join("leg.toml"), leg.replace("revolutions = 1\nbranch = \"left\"\n", "")).unwrap();
+    replaced("leg.toml", &[("position", format!("{position:?}"))]);
+}
+
+/// Momentum of the leg from a departure on, planned in windows of ten days, and the leg to 200 km with that plan: `leg/mission.toml`.
+fn led(folder: &Path, template: &Path, momentum: &str, departure: &Departure) {
+    leg_from(folder, template, departure);
     let text = format!("mission = \"flyby.toml\"\nfreeze = 0\nwindow = \"10 d\"\n{momentum}");
     fs::write(folder.join("momentum.toml"), text).unwrap();
     plan("momentum", &folder.join("momentum.toml"), &folder.join("momentum"), template, 0);
@@ -138,19 +210,20 @@ fn keeps(folder: &Path, rows: &[Vec<f64>]) {
     assert!(greatest > 0.65, "contacts limit none of them: {greatest}");
 }
 
-/// Momentum planned, departure led to 200 km with that plan, an error of 4 cm/s there, corrected from 111 d before on: `plan.toml`, with
-/// more about the flyby.
-fn departed(folder: &Path, template: &Path, flyby: &str) {
+/// Momentum planned, departure led to 200 km with that plan, an error there that is corrected: `plan.toml`, with more about the flyby.
+fn departed(folder: &Path, template: &Path, departure: &Departure, flyby: &str) {
     let momentum = "contactShare = 0.3\n[momentum]\nlimit = \"5.3 N.m.s\"\n[tilt]\nazimuth = \"5 deg\"\nelevation = \"6 deg\"\n";
-    led(folder, template, momentum);
+    led(folder, template, momentum, departure);
     let [azimuth_deg, elevation_deg] = TILT_DEG;
     let text = format!(
         "mission = \"leg/mission.toml\"\nwindow = \"10 d\"\nalternation = 1\ncontactShare = {CONTACTS}\n\
          [momentum]\nlimit = \"{LIMIT_N_M_S} N.m.s\"\n[tilt]\nazimuth = \"{azimuth_deg} deg\"\nelevation = \"{elevation_deg} deg\"\n\
          [sunOffset]\nchange = true\nlargest = \"20 deg\"\n\
-         [flyby]\nbody = \"mercury\"\naltitude = \"200 km\"\nangle = 0\nfrom = \"2008-06-17 UTC\"\n{flyby}\
-         [update]\nat = \"2008-03-19 UTC\"\nvelocity = {}\n[compare]\nnext = \"2009-09-29 UTC\"\n",
-        velocity(folder, 0.0404)
+         [flyby]\nbody = \"mercury\"\naltitude = \"200 km\"\nangle = 0\nfrom = {:?}\n{flyby}\
+         [update]\nat = {:?}\nvelocity = {}\n[compare]\nnext = \"2009-09-29 UTC\"\n",
+        departure.corrected_from,
+        departure.date,
+        velocity(folder, departure.error_m_s)
     );
     fs::write(folder.join("plan.toml"), text).unwrap();
 }
@@ -160,7 +233,8 @@ fn the_steps_of_the_paper_lead_back_to_the_aim() {
     let Some((_packed, template)) = template() else { return };
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    departed(folder, &template, "");
+    let departure = if is_long() { OF_THE_PAPER } else { LATE };
+    departed(folder, &template, &departure, "");
     let output = folder.join("out");
     let printed = plan("flyby", &folder.join("plan.toml"), &output, &template, 0);
     says(
@@ -180,7 +254,7 @@ fn the_steps_of_the_paper_lead_back_to_the_aim() {
         "miss before {before:?}, after {after:?} m, rounds {}, |H| {}",
         found["rounds"], found["largestMomentum"]
     );
-    assert!((1.5e5..1.9e5).contains(&-before[0]) && before[1].abs() < 1e4);
+    assert!(departure.miss_m.contains(&before[0]) && before[1].abs() < 1e4, "{before:?}");
     assert!(after[0].hypot(after[1]) < 1e3);
     assert!(found["rounds"].as_f64().unwrap() <= 5.0);
     assert!(found["largestMomentum"]["simulated"].as_f64().unwrap() < LIMIT_N_M_S);
@@ -218,7 +292,7 @@ fn an_arrival_that_is_fixed_is_met_to_a_fifth_of_a_second() {
     let Some((_packed, template)) = template() else { return };
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    departed(folder, &template, "arrival = \"fixed\"\ntime = \"2008-10-06T08:40:00 UTC\"\n");
+    departed(folder, &template, &OF_THE_PAPER, "arrival = \"fixed\"\ntime = \"2008-10-06T08:40:00 UTC\"\n");
     let output = folder.join("out");
     plan("flyby", &folder.join("plan.toml"), &output, &template, 0);
     let found = json(&output);
@@ -372,17 +446,22 @@ fn dispersed_flights_spread_as_the_covariance_says_on_any_number_of_threads() {
     assert!(of_mean < 20.0);
 }
 
-/// On the baseline without tilt, no limit on |H|, 111 d before: 260 km along +R is refused with what was reached.
+/// On the baseline without tilt, no limit on |H|: 260 km along +R is refused with what was reached, which is the paper's reach 111 d before
+/// and within it 40 d before.
 #[test]
 fn what_is_out_of_reach_is_refused_with_the_polygon() {
     let Some((_packed, template)) = template() else { return };
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    led(folder, &template, "alternation = 0\nwindmill = 0\n[momentum]\nlimit = \"1e6 N.m.s\"\n");
+    let departure = if is_long() { OF_THE_PAPER } else { LATE };
+    led(folder, &template, "alternation = 0\nwindmill = 0\n[momentum]\nlimit = \"1e6 N.m.s\"\n", &departure);
     let file = folder.join("plan.toml");
-    let text = "mission = \"leg/mission.toml\"\nwindow = \"10 d\"\n[momentum]\nlimit = \"1e6 N.m.s\"\n\
-                [tilt]\nazimuth = \"10 deg\"\nelevation = \"12 deg\"\n[sunOffset]\nchange = true\nlargest = \"90 deg\"\n\
-                [flyby]\nbody = \"mercury\"\nbT = \"3321.8 km\"\nbR = \"260 km\"\nfrom = \"2008-06-17 UTC\"\n";
+    let text = format!(
+        "mission = \"leg/mission.toml\"\nwindow = \"10 d\"\n[momentum]\nlimit = \"1e6 N.m.s\"\n\
+         [tilt]\nazimuth = \"10 deg\"\nelevation = \"12 deg\"\n[sunOffset]\nchange = true\nlargest = \"90 deg\"\n\
+         [flyby]\nbody = \"mercury\"\nbT = \"3321.8 km\"\nbR = \"260 km\"\nfrom = {:?}\n",
+        departure.corrected_from
+    );
     fs::write(&file, text).unwrap();
     let printed = plan("flyby", &file, &folder.join("far"), &template, 1);
     says(&printed, &["not found: arrays and attitudes that lead to the aim", "reach +T"]);
@@ -392,7 +471,8 @@ fn what_is_out_of_reach_is_refused_with_the_polygon() {
     println!("reach {reach:?} km");
     // Paper 003 has 146 and 233 km, of windows that it does not print: see docs/src/validation.md.
     for (found_km, published_km) in [(reach[2], 146.0), (reach[3], 233.0)] {
-        assert!((found_km / published_km - 1.0).abs() < 0.2, "{reach:?}");
+        let share = found_km / published_km;
+        assert!(if is_long() { (share - 1.0).abs() < 0.2 } else { share > 0.2 && share < 1.0 }, "{reach:?}");
     }
     assert!(found["reachable_m"].as_array().unwrap().len() > 6);
     assert!(!folder.join("far/mission.toml").exists());

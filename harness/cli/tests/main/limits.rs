@@ -22,12 +22,12 @@ fn the_guide_has_every_limit() {
     let archive = fmi::ArchiveLimits::default();
     let mut expected = BTreeMap::from([
         ("bytes of a TOML file", MOST_TEXT_BYTES as u64),
-        ("bytes of a table of numbers (`--input`, `map --mission`)", files::MOST_TABLE_BYTES),
+        ("bytes of a table of numbers (`--input`, `map --mission`)", files::MAX_TABLE_BYTES),
         ("bytes of a `modelDescription.xml`", archive.description_bytes),
-        ("bytes of the description or a parameter set of a system", systems::MOST_BYTES),
+        ("bytes of the description or a parameter set of a system", systems::MAX_BYTES),
         ("bytes of an unpacked archive", archive.total_bytes),
         ("entries of an archive", archive.entries as u64),
-        ("components of a system", systems::MOST_COMPONENTS as u64),
+        ("components of a system", systems::MAX_COMPONENTS as u64),
         ("problems that a message lists; the others are counted", MOST_PROBLEMS as u64),
         ("surfaces of a spacecraft, copies and facets of shapes among them", MOST_SURFACES as u64),
     ]);
@@ -36,7 +36,7 @@ fn the_guide_has_every_limit() {
     expected.extend(keys.iter().map(|(key, most)| (key.as_str(), *most)));
     assert_eq!(rows(), expected);
     assert!(GUIDE.contains(&format!("every other has at most {MOST_ITEMS} entries")));
-    assert_eq!(files::MOST_TEXT_BYTES, MOST_TEXT_BYTES as u64);
+    assert_eq!(files::MAX_TEXT_BYTES, MOST_TEXT_BYTES as u64);
 }
 
 const SPACECRAFT: &str = r#"
@@ -176,11 +176,11 @@ fn an_archive_beyond_a_limit_is_refused_before_it_is_unpacked() {
         "<?xml version=\"1.0\"?><SystemStructureDescription \
          xmlns=\"http://ssp-standard.org/SSP1/SystemStructureDescription\" version=\"1.0\" name=\"x\"><System \
          name=\"s\"><Elements>{}</Elements></System></SystemStructureDescription>",
-        times(systems::MOST_COMPONENTS + 1, component)
+        times(systems::MAX_COMPONENTS + 1, component)
     );
     fs::write(&system, blanks("SystemStructure.ssd", &structure, 0)).unwrap();
     let refused = run(&["run", shown(&system)], 1);
-    assert!(refused.contains(&format!("allowed: at most {}", systems::MOST_COMPONENTS)), "{refused}");
+    assert!(refused.contains(&format!("allowed: at most {}", systems::MAX_COMPONENTS)), "{refused}");
 }
 
 #[test]

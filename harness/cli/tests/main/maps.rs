@@ -48,7 +48,7 @@ struct Torque {
 }
 
 impl Torque {
-    fn of(fmu: &Fmu) -> Self {
+    fn new(fmu: &Fmu) -> Self {
         let mut instance = Instance::new(fmu, "test", &InstanceOptions::default()).unwrap();
         instance.set("planet.present", &Value::Boolean(false)).unwrap();
         instance.setup_experiment(None, 0.0, None).unwrap();
@@ -111,7 +111,7 @@ fn every_direction_is_what_the_fmu_says() {
     )));
     let rows = rows(&csv);
     assert_eq!(rows.len(), 360 * 181);
-    let mut torque = Torque::of(&fmu);
+    let mut torque = Torque::new(&fmu);
     let columns = [["torque_x_n_m", "torque_y_n_m", "torque_z_n_m"], ["force_x_n", "force_y_n", "force_z_n"]];
     let greatest =
         columns.map(|names| rows.iter().map(|row| norm(&names.map(|name| row[name]))).fold(0.0, f64::max));
@@ -143,7 +143,7 @@ fn lines_and_balances_are_where_the_torque_vanishes() {
             let spacecraft = [MESSENGER, "--template", shown(&fmu_path), "--distance", "0.4", "--set", &set];
             mapped(&[&spacecraft[..], &["--step", "2deg", "--no-picture", "--quiet", option, "-"]].concat())
         };
-        let mut torque = Torque::of(&fmu);
+        let mut torque = Torque::new(&fmu);
         for (axis, value) in center_m.into_iter().enumerate() {
             torque.instance.set_real(&format!("spacecraft.centerOfMass[{}]", axis + 1), value).unwrap();
         }
@@ -202,7 +202,7 @@ fn worth_at(fmu_path: &Path, [azimuth, elevation]: [f64; 2]) {
             .unwrap_or_else(|| panic!("{what}: {printed}"));
         line.trim_start()[what.len()..].split_whitespace().map(|cell| cell.parse().unwrap()).collect()
     };
-    let mut torque = Torque::of(&fmu);
+    let mut torque = Torque::new(&fmu);
     for (axis, value) in [0.01, 0.02, -0.03].into_iter().enumerate() {
         torque.instance.set_real(&format!("spacecraft.centerOfMass[{}]", axis + 1), value).unwrap();
     }
@@ -279,7 +279,7 @@ fn a_degree_off_the_sun_is_worth_something_from_the_sun_on() {
     let fmu = Fmu::open(&fmu_path).unwrap();
     let at = ["--distance", "0.3", "--step", "10deg", "--sun", "0deg,0deg"];
     let map = [&[MESSENGER, "--template", shown(&fmu_path)][..], &at].concat();
-    let mut torque = Torque::of(&fmu);
+    let mut torque = Torque::new(&fmu);
     // With the Sun on -Y, across their axes, the offset is the angle itself, to the side of the tilt.
     let h_deg = 0.05;
     let mut at = |angle_deg: f64| torque.at(0.0, 0.0, 0.3 * AU_M, &[angle_deg.to_radians(), 0.0]);

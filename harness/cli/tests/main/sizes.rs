@@ -132,13 +132,23 @@ fn what_cannot_be_sized_is_refused_by_name() {
     refused("../../fmu-src/resources/examples/timeline.toml", &[], "found a timeline, allowed: a spacecraft");
 }
 
-/// In downlink throughout no strategy chooses the Sun's place; the flight is as long as the mission's timeline.
+/// In downlink throughout no strategy chooses the Sun's place; the flight is as long as the mission, here the first 50 days.
 #[test]
 fn a_mission_in_cruise_is_sized_by_its_timeline() {
     let Some((scratch, template)) = template() else { return };
-    let mission = "../../fmu-src/resources/examples/missions/messenger-cruise.toml";
-    let arguments = ["size", mission, "--template", shown(&template), "--output", shown(scratch.path())];
-    run(&[&arguments[..], &["--budget", "0s"]].concat(), 0);
+    let missions = std::path::Path::new("../../fmu-src/resources/examples/missions");
+    let timeline = "messenger-cruise-timeline.toml";
+    fs::copy(missions.join(timeline), scratch.path().join(timeline)).unwrap();
+    fs::copy("../../fmu-src/resources/messenger.toml", scratch.path().join("messenger.toml")).unwrap();
+    let text = fs::read_to_string(missions.join("messenger-cruise.toml")).unwrap();
+    let short =
+        text.replace("../../messenger.toml", "messenger.toml").replace("stop = \"200 d\"", "stop = \"50 d\"");
+    let mission = scratch.path().join("messenger-cruise.toml");
+    fs::write(&mission, short).unwrap();
+    let arguments =
+        ["size", shown(&mission), "--template", shown(&template), "--output", shown(scratch.path())];
+    let text = run(&[&arguments[..], &["--budget", "0s"]].concat(), 0);
+    says(&text, &["momentum without dumps, 50 d of flight"]);
     let rows = table(&scratch.path().join("messenger-cruise-size.csv"));
     let strategies: Vec<&str> = rows.iter().map(|row| row[0].as_str()).collect();
     // At each of the three thresholds that are simulated whatever the budget.

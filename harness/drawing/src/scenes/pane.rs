@@ -8,7 +8,7 @@ use crate::{
     Camera, Finish, GREY, INK, Labels, NAME_SIZE, Pen, Pixel, Surface, TEXT, Vector, contains, unit,
 };
 
-/// Where the light of the picture comes from, beside the viewer.
+/// Direction of the picture's light, beside that of the viewer.
 const LIGHT: Vector = Vector::new(-0.25, -0.85, 0.46);
 /// Colours of X, Y, Z and of rotations.
 const AXIS_COLOURS: [&str; 3] = ["#c0392b", "#1e8449", "#1f5fbf"];
@@ -16,7 +16,7 @@ const ROTATION_COLOUR: &str = "#8e44ad";
 /// Radius of a tank's sign.
 const TANK_RADIUS_PX: f64 = 5.0;
 /// More names than this would not be readable.
-const MOST_NAMES: usize = 200;
+const MAX_NAMES: usize = 200;
 
 /// How a scene stands in a rectangle.
 pub(super) struct Pane<'a> {
@@ -38,8 +38,8 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    /// Of a scene with its axes of rotation, origin and centre of mass.
-    pub(super) fn of(scene: &Scene) -> Option<Self> {
+    /// Pane of a scene with its axes of rotation, origin and centre of mass.
+    pub(super) fn new(scene: &Scene) -> Option<Self> {
         let [mut low_m, mut high_m] = scene.bounds_m()?;
         let ends = scene.axes.iter().flat_map(Axis::ends_m);
         let tips = scene.arrows.iter().map(|arrow| arrow.to_m);
@@ -99,7 +99,7 @@ impl Pane<'_> {
         let center = self.screen(self.scene.center_of_mass_m);
         pen.center_of_mass(center);
         labels.keep_off_sign(center, 15.0);
-        if self.scene.parts.len() <= MOST_NAMES {
+        if self.scene.parts.len() <= MAX_NAMES {
             self.names(pen, &mut labels, &order, &outlines);
         }
     }

@@ -1,4 +1,4 @@
-//! What a picture shows: surfaces, axes of rotation, centre of mass, and a legend; from a spacecraft or a spinner.
+//! Contents of a picture: surfaces, axes of rotation, centre of mass, and a legend; from a spacecraft or a spinner.
 
 use physics::{
     spacecraft::{AntennaRange, MountedSunSensor, Plate, Spacecraft},
@@ -38,7 +38,7 @@ pub struct Part {
     pub name: String,
     /// Area or force, and how it stands.
     pub what: String,
-    /// Where its sign stands if not on its surface.
+    /// Position of its sign if not on its surface.
     pub beside_m: Option<Vector>,
     /// Whether it is shown through the surfaces in front of it, by its sign.
     pub is_inside: bool,
@@ -62,7 +62,7 @@ pub struct Scene {
     pub has_sun: bool,
     /// Entries of the legend.
     pub parts: Vec<Part>,
-    /// What the picture leaves open, in whole sentences.
+    /// Limits of the picture, in whole sentences.
     pub remarks: Vec<&'static str>,
 }
 
@@ -138,7 +138,7 @@ impl Scene {
             remarks.push("Panels that follow the Sun stand as they do with it along -Y.");
         }
         let first_device = parts.len();
-        let devices = Devices::of(spacecraft, &surfaces, first_device);
+        let devices = Devices::from_spacecraft(spacecraft, &surfaces, first_device);
         parts.extend(devices.parts);
         surfaces.extend(devices.nozzles);
         remarks.extend(devices.remarks);
@@ -265,8 +265,8 @@ struct Devices {
 }
 
 impl Devices {
-    /// Of a spacecraft with these surfaces; the first is part `first`.
-    fn of(spacecraft: &Spacecraft, surfaces: &[Surface], first: usize) -> Self {
+    /// Devices of a spacecraft with these surfaces; the first is part `first`.
+    fn from_spacecraft(spacecraft: &Spacecraft, surfaces: &[Surface], first: usize) -> Self {
         let mut devices = Self::default();
         let Some([low_m, high_m]) = box_of(surfaces.iter()) else { return devices };
         let size_m = (high_m - low_m).max();

@@ -70,15 +70,15 @@ const MARGIN: f64 = 22.0;
 /// Height of a view beside what is drawn in it.
 const AROUND: f64 = HEADING_HEIGHT + FOOT_HEIGHT + 2.0 * MARGIN;
 /// Height of a view at least.
-const LEAST_HEIGHT: f64 = 190.0;
+const MIN_HEIGHT: f64 = 190.0;
 const ROW: f64 = 18.0;
 const LEGEND_SIZE: f64 = 12.5;
 /// Entries of the legend at most.
-const MOST_ENTRIES: usize = 60;
+const MAX_ENTRIES: usize = 60;
 
 /// The sheet with these views; `None` where nothing has an extent.
 pub fn svg(scene: &Scene, views: &[View]) -> Option<String> {
-    let reach = Extent::of(scene)?;
+    let reach = Extent::new(scene)?;
     let columns = if views.len() == 1 { 1 } else { 2 };
     let grow = if views.len() == 1 { ALONE } else { 1.0 };
     let (pane_width, most_height) = (grow * PANE_WIDTH, grow * PANE_HEIGHT);
@@ -90,9 +90,9 @@ pub fn svg(scene: &Scene, views: &[View]) -> Option<String> {
         .iter()
         .zip(&cameras)
         .map(|(view, camera)| match view {
-            View::Perspective => Frame::of(camera, &drawn_m),
+            View::Perspective => Frame::new(camera, &drawn_m),
             // One box for all, so that views line up.
-            _ => Frame::of(camera, &reach.corners_m()),
+            _ => Frame::new(camera, &reach.corners_m()),
         })
         .collect();
     let fit = |frame: &Frame| (inside.0 / frame.size.0).min(inside.1 / frame.size.1);
@@ -107,10 +107,10 @@ pub fn svg(scene: &Scene, views: &[View]) -> Option<String> {
     let heights: Vec<f64> =
         frames.iter().zip(&scales).map(|(frame, scale)| frame.size.1 * scale + AROUND).collect();
     let row_heights: Vec<f64> =
-        heights.chunks(columns).map(|row| row.iter().copied().fold(LEAST_HEIGHT, f64::max)).collect();
+        heights.chunks(columns).map(|row| row.iter().copied().fold(MIN_HEIGHT, f64::max)).collect();
     let width = pane_width * columns as f64;
     let legend_top = TITLE_HEIGHT + row_heights.iter().sum::<f64>();
-    let legend = Legend::of(scene, width);
+    let legend = Legend::new(scene, width);
     let mut pen = Pen::new(width, legend_top + legend.height(), &scene.name);
     pen.text((MARGIN, 27.0), 18.0, "start", HEADING, &scene.name);
     for (index, ((view, camera), frame)) in views.iter().zip(&cameras).zip(&frames).enumerate() {
@@ -136,9 +136,9 @@ pub fn svg(scene: &Scene, views: &[View]) -> Option<String> {
 
 /// The perspective alone, of this size and without any text.
 pub(super) fn picture(scene: &Scene, (width, height): (f64, f64)) -> Option<String> {
-    let reach = Extent::of(scene)?;
+    let reach = Extent::new(scene)?;
     let camera = View::Perspective.camera(scene, &reach)?;
-    let frame = Frame::of(&camera, &drawn_m(scene, &reach));
+    let frame = Frame::new(&camera, &drawn_m(scene, &reach));
     let pixels_per_m = ((width - 2.0 * MARGIN) / frame.size.0).min((height - 2.0 * MARGIN) / frame.size.1);
     let middle = (0.5 * width - pixels_per_m * frame.middle.0, 0.5 * height + pixels_per_m * frame.middle.1);
     let mut pen = Pen::new(width, height, &scene.name);
@@ -156,14 +156,14 @@ fn drawn_m(scene: &Scene, reach: &Extent) -> Vec<Vector> {
     corners.chain(ends).chain(tips).chain(arrows).collect()
 }
 
-/// What a camera sees of some points, in m.
+/// Extent of some points in a camera's picture, in m.
 struct Frame {
     size: (f64, f64),
     middle: (f64, f64),
 }
 
 impl Frame {
-    fn of(camera: &Camera, points_m: &[Vector]) -> Self {
+    fn new(camera: &Camera, points_m: &[Vector]) -> Self {
         let corners: Vec<(f64, f64)> = points_m.iter().map(|point| camera.flat(*point)).collect();
         let [low, high] = [f64::min, f64::max].map(|pick: fn(f64, f64) -> f64| {
             let of = |get: fn(&(f64, f64)) -> f64| corners.iter().map(get).reduce(pick).unwrap_or_default();
@@ -188,8 +188,8 @@ struct Legend {
 }
 
 impl Legend {
-    fn of(scene: &Scene, width: f64) -> Self {
-        let entries = scene.parts.len().min(MOST_ENTRIES);
+    fn new(scene: &Scene, width: f64) -> Self {
+        let entries = scene.parts.len().min(MAX_ENTRIES);
         let widest = |get: fn(&super::scene::Part) -> &str| {
             let shown = scene.parts.iter().take(entries);
             shown.map(|part| width_px(get(part), LEGEND_SIZE)).fold(0.0, f64::max)
@@ -251,7 +251,7 @@ impl Legend {
     }
 }
 
-/// Words in lines of at most so many characters.
+/// Breaks words into lines of at most `most` characters.
 fn wrapped(text: &str, most: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {

@@ -9,23 +9,23 @@ use std::{
 
 use crate::{identity::Identity, paths::folder_of};
 
-fn of(metadata: &Metadata) -> Identity {
+fn identity_from(metadata: &Metadata) -> Identity {
     Identity { device_and_inode: (metadata.dev(), metadata.ino()), hard_links: metadata.nlink() }
 }
 
 /// Identity of the file at a path, following links.
 pub(crate) fn identity(path: &Path) -> io::Result<Identity> {
-    fs::metadata(path).map(|metadata| of(&metadata))
+    fs::metadata(path).map(|metadata| identity_from(&metadata))
 }
 
 /// Identity of the entry at a path, without following a link.
 pub(crate) fn identity_of_link(path: &Path) -> io::Result<Identity> {
-    fs::symlink_metadata(path).map(|metadata| of(&metadata))
+    fs::symlink_metadata(path).map(|metadata| identity_from(&metadata))
 }
 
 /// Identity of an open file.
 pub(crate) fn identity_of_open(file: &File) -> io::Result<Identity> {
-    file.metadata().map(|metadata| of(&metadata))
+    file.metadata().map(|metadata| identity_from(&metadata))
 }
 
 /// Opens a file that no other run can write while it is open; [`io::ErrorKind::ResourceBusy`] where one does.

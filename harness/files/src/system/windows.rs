@@ -16,11 +16,11 @@ const FILE_SHARE_READ: u32 = 0x1;
 const FILE_SHARE_DELETE: u32 = 0x4;
 const FILE_FLAG_BACKUP_SEMANTICS: u32 = 0x0200_0000;
 const FILE_FLAG_OPEN_REPARSE_POINT: u32 = 0x0020_0000;
-/// What refuses an open file: no access, a sharing violation, a mapped one.
+/// Errors by which an open file is refused: no access, a sharing violation, a mapped one.
 const IN_USE: [i32; 3] = [5, 32, 1224];
 const SHARING_VIOLATION: i32 = 32;
 
-fn of(file: &File) -> io::Result<Identity> {
+fn identity_from(file: &File) -> io::Result<Identity> {
     let found = information(file)?;
     Ok(Identity {
         device_and_inode: (found.volume_serial_number(), found.file_index()),
@@ -35,17 +35,17 @@ fn open_for_attributes(path: &Path, flags: u32) -> io::Result<File> {
 
 /// Identity of the file at a path, following links.
 pub(crate) fn identity(path: &Path) -> io::Result<Identity> {
-    of(&open_for_attributes(path, 0)?)
+    identity_from(&open_for_attributes(path, 0)?)
 }
 
 /// Identity of the entry at a path, without following a link.
 pub(crate) fn identity_of_link(path: &Path) -> io::Result<Identity> {
-    of(&open_for_attributes(path, FILE_FLAG_OPEN_REPARSE_POINT)?)
+    identity_from(&open_for_attributes(path, FILE_FLAG_OPEN_REPARSE_POINT)?)
 }
 
 /// Identity of an open file.
 pub(crate) fn identity_of_open(file: &File) -> io::Result<Identity> {
-    of(file)
+    identity_from(file)
 }
 
 /// Opens a file that no other program can write while it is open; [`io::ErrorKind::ResourceBusy`] where one does.

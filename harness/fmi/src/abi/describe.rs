@@ -23,7 +23,7 @@ pub struct Described {
     pub default_setup: String,
     /// Inputs of its reference flight, over steps of the default experiment.
     pub reference_inputs: String,
-    /// What the model is, in HTML.
+    /// Description of the model, in HTML.
     pub about: String,
     /// A first example in Python, of the FMU `{fmu}`.
     pub example: String,
@@ -47,7 +47,7 @@ unsafe extern "C" fn receive(context: *mut c_void, kind: c_int, text: *const c_c
     }
 }
 
-/// What the library sent, and its answer.
+/// Returns the library's answer and all that it sent.
 fn collected(call: impl FnOnce(*mut c_void) -> c_int) -> (c_int, Vec<(c_int, String)>) {
     let mut received = Vec::new();
     let code = call((&raw mut received).cast());

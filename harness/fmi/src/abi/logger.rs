@@ -17,7 +17,7 @@ pub(super) type FixedLogger =
 /// Messages kept per instance; older ones go first.
 const MESSAGES_KEPT: usize = 1000;
 
-/// Where an instance's messages arrive; its address is the `componentEnvironment`.
+/// Buffer of an instance's messages; its address is the `componentEnvironment`.
 #[derive(Default)]
 pub(super) struct MessageBuffer {
     messages: Mutex<VecDeque<LogMessage>>,

@@ -13,7 +13,7 @@ pub struct SharedWords {
 }
 
 impl SharedWords {
-    /// An unnamed file of so many words, all zero, and its mapping.
+    /// Creates an unnamed file of `count` words, all zero, and its mapping.
     pub fn create(count: usize) -> io::Result<(File, Self)> {
         #[cfg(target_os = "linux")]
         let file = {

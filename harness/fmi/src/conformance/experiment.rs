@@ -1,4 +1,4 @@
-//! What the probes share: an instance brought to a state, and all its values as bits.
+//! Common code of the probes: an instance brought to a state, and all its values as bits.
 
 use crate::{Checking, Error, Fmu, Instance, InstanceOptions, Times};
 use model_description::call_table::State;
@@ -19,7 +19,7 @@ pub(crate) fn unchecked() -> InstanceOptions {
 
 /// The FMU's own times.
 pub(crate) fn times(fmu: &Fmu) -> Result<Times, Error> {
-    Times::of(fmu, None, None, None)
+    Times::from_fmu(fmu, None, None, None)
 }
 
 /// References of continuous variables.

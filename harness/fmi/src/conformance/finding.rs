@@ -1,6 +1,6 @@
-//! What a check found.
+//! Findings of a check.
 
-/// What a check found.
+/// Verdict of a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
     /// As it should be.
@@ -17,7 +17,7 @@ impl Verdict {
     /// All of them, from good to bad.
     pub const ALL: [Self; 4] = [Self::Good, Self::Skipped, Self::Note, Self::Bad];
 
-    /// What it is called in a report.
+    /// Word for it in a report.
     pub fn word(self) -> &'static str {
         match self {
             Self::Good => "ok",
@@ -33,7 +33,7 @@ impl Verdict {
 pub struct Finding {
     /// Good or bad.
     pub verdict: Verdict,
-    /// What was checked or found.
+    /// Subject of the check, or the finding.
     pub text: String,
 }
 

@@ -1,4 +1,4 @@
-//! What an FMI 2.0 co-simulation FMU must do: one list of probes.
+//! Conformance of a co-simulation FMU with FMI 2.0: one list of probes.
 //!
 //! `heliotorque check` runs each probe on a foreign FMU in a process of its own, the tests run all of them on this
 //! project's FMUs through their shared library.

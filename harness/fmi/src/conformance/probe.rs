@@ -1,17 +1,17 @@
-//! What a probe is.
+//! Probes of an FMU.
 
 use crate::{Error, Fmu};
 
 use crate::conformance::Finding;
 
-/// What a probe gives; an error is a finding too.
+/// Findings of a probe; an error is a finding too.
 pub type Findings = Result<Vec<Finding>, Error>;
 
 /// One probe.
 pub struct Probe {
     /// Short name.
     pub name: &'static str,
-    /// What it tests.
+    /// Subject of its test.
     pub title: &'static str,
     /// Runs it, in a process of its own.
     pub run: fn(&Fmu) -> Findings,
@@ -23,7 +23,7 @@ pub struct Trial {
     pub probe: &'static str,
     /// The function it calls.
     pub call: &'static str,
-    /// What it tries.
+    /// Call that it tries.
     pub what: &'static str,
     /// Whether the call is senseless by any reading of the standard: then a hang is worth a note, and a short wait.
     pub senseless: bool,
@@ -34,7 +34,7 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// What the process runs.
+    /// Name of the trial, by which the process runs it.
     pub fn name(&self) -> String {
         format!("{}: {}", self.probe, self.what)
     }

@@ -1,4 +1,4 @@
-//! What can be checked without running the FMU.
+//! Checks without running the FMU.
 
 use std::path::{Component, Path};
 
@@ -51,7 +51,7 @@ pub fn archive(fmu: &Fmu) -> Vec<Finding> {
     findings
 }
 
-/// Where a library in another platform's folder belongs.
+/// Names the folder that a library in another platform's folder belongs to.
 fn misplaced(path: &Path, requirements: &Requirements) -> String {
     let suffix = requirements.suffix();
     let allowed = match requirements.platform_folders().first() {
@@ -73,7 +73,7 @@ fn separators(fmu: &Fmu, findings: &mut Vec<Finding>) {
     }
 }
 
-/// What the description lists to be compiled is there.
+/// Checks that the source files which the description lists are there.
 fn source_files(fmu: &Fmu, findings: &mut Vec<Finding>) {
     let description = fmu.description();
     let of_exchange = description.model_exchange.iter().map(|it| ("ModelExchange", &it.source_files));

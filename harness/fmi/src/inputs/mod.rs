@@ -24,7 +24,7 @@ pub struct InputTable {
 }
 
 /// Turn between two rows, in deg, beyond which a body rate is missed.
-const MOST_TURN_DEG: f64 = 1.0;
+const MAX_TURN_DEG: f64 = 1.0;
 
 #[derive(Clone, Debug, PartialEq)]
 struct InputColumn {
@@ -193,13 +193,13 @@ impl InputTable {
                 Some((2.0 * half_turn_rad(left, right).to_degrees(), row))
             };
             let widest = gaps.filter_map(turn_deg).max_by(|(one, _), (other, _)| one.total_cmp(other));
-            let (turn_deg, row) = widest.filter(|(turn_deg, _)| *turn_deg > MOST_TURN_DEG)?;
+            let (turn_deg, row) = widest.filter(|(turn_deg, _)| *turn_deg > MAX_TURN_DEG)?;
             let [from_s, to_s] = [times_s[row - 1], times_s[row]];
             let vector = &attitude.vector;
             let rate = attitude.rate_name.as_deref().unwrap_or("its body rate");
             Some(format!(
                 "{vector} turns by {turn_deg:.1} deg from {from_s} s to {to_s} s, found no {rate} beside it: the turn between the rows is \
-                 taken at a constant rate; rows at most {MOST_TURN_DEG} deg apart, or {rate}, say it better"
+                 taken at a constant rate; rows at most {MAX_TURN_DEG} deg apart, or {rate}, say it better"
             ))
         };
         self.attitudes.iter().filter(is_alone).filter_map(line).collect()

@@ -16,7 +16,7 @@ use crate::{
     uri::file_uri,
 };
 
-/// Where the instance finds its resources.
+/// Location of the instance's resources.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub enum Resources {
     /// The URI of the unpacked `resources` folder.
@@ -263,7 +263,7 @@ impl Instance {
         self.call(function, |it| it.get_other_status(function, kind), |_| format!("({kind})"))
     }
 
-    /// That a Real which was read at a time in s is NaN.
+    /// Returns the error that a Real which was read at a time in s is NaN.
     pub fn not_a_number(&self, reference: u32, time_s: f64) -> Error {
         let call = Function::GetReal.symbol().to_owned() + &self.named(&[reference], BaseType::Real);
         self.failure(call, Outcome::NotANumber(time_s))
@@ -302,7 +302,7 @@ impl Instance {
         self.finish(function, answer, arguments)
     }
 
-    /// A call that reads or sets variables, each of which may be read or set now.
+    /// A call that reads or sets variables, if each of them may be read or set now.
     fn access(
         &mut self,
         (function, base): (Function, BaseType),

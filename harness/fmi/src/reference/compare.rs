@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 pub enum Cell {
     /// A number that may be a little off.
     Real(f64),
-    /// What is the same or not.
+    /// Text that is the same or not.
     Exact(String),
 }
 
@@ -67,22 +67,22 @@ impl std::fmt::Display for Cell {
 pub struct Compared {
     /// Name of the variable.
     pub name: String,
-    /// What the first table has.
+    /// Cells of the first table.
     pub expected: Vec<Cell>,
-    /// What the second table has.
+    /// Cells of the second table.
     pub found: Vec<Cell>,
 }
 
-/// Where a column differs most.
+/// Row in which a column differs most.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
     /// Name of the variable.
     pub name: String,
     /// The row.
     pub row: usize,
-    /// What the first table has there.
+    /// Cell of the first table there.
     pub expected: Cell,
-    /// What the second table has there.
+    /// Cell of the second table there.
     pub found: Cell,
     /// In the variable's unit, infinite where a cell is no number.
     pub absolute: f64,
@@ -114,7 +114,7 @@ pub fn differences(columns: &[Compared]) -> Vec<Difference> {
     columns.iter().filter_map(worst_of).collect()
 }
 
-/// What a campaign keeps of a variable, behind its name.
+/// Statistics that a campaign keeps of a variable, appended to its name.
 const KEPT: [&str; 12] = [
     ".final",
     ".min",

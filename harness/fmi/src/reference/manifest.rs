@@ -22,9 +22,9 @@ pub struct Manifest {
 pub struct Related {
     /// MIME type.
     pub kind: String,
-    /// Where it is, from the manifest.
+    /// Path, relative to the manifest.
     pub source: String,
-    /// What it is for.
+    /// Role of the file.
     pub role: String,
     /// In words.
     pub description: String,

@@ -34,7 +34,7 @@ pub enum RecordError {
 /// # Errors
 /// An FMU that fails in it.
 pub fn record(fmu: &Fmu, inputs: &str) -> Result<Vec<(String, Vec<u8>)>, RecordError> {
-    let times = Times::of(fmu, None, None, None).map_err(RecordError::Flight)?;
+    let times = Times::from_fmu(fmu, None, None, None).map_err(RecordError::Flight)?;
     let stop_s = times.point_s(STEPS.min(times.steps()));
     let table = table(fmu, inputs, &times)?;
     // Not every reader of CSV takes texts.

@@ -10,7 +10,7 @@ use crate::reference::{
     manifest::{Manifest, Related},
 };
 
-/// Where no tolerance is stated: what tools with solvers of their own meet.
+/// Tolerance where none is stated: tools with solvers of their own meet it.
 const UNSTATED_TOLERANCE: f64 = 1e-3;
 
 /// A flight that was simulated again.
@@ -22,7 +22,7 @@ pub struct Replay {
     pub rows: usize,
     /// Columns that were compared.
     pub columns: usize,
-    /// What deviates, the worst first, each with its time in s.
+    /// Deviations, the worst first, each with its time in s.
     pub deviations: Vec<(f64, Difference)>,
     /// Greatest deviation allowed, as a fraction of the largest magnitude of a vector or scalar.
     pub tolerance: f64,

@@ -7,7 +7,7 @@ use crate::{description, folder};
 
 fn times(start: Option<f64>, stop: Option<f64>, step: Option<f64>) -> Result<Times, String> {
     let (_folder, fmu) = folder(&description());
-    Times::of(&fmu, start, stop, step).map_err(|error| error.to_string())
+    Times::from_fmu(&fmu, start, stop, step).map_err(|error| error.to_string())
 }
 
 #[test]
@@ -21,7 +21,7 @@ fn the_default_experiment_fills_in() {
     let mut bare = description();
     bare.default_experiment = None;
     let (_folder, fmu) = folder(&bare);
-    let bare = Times::of(&fmu, None, None, None).unwrap();
+    let bare = Times::from_fmu(&fmu, None, None, None).unwrap();
     assert_eq!((bare.start_s, bare.stop_s, bare.steps()), (0.0, 1.0, 100));
 }
 
@@ -74,9 +74,9 @@ fn an_fmu_of_one_step_size_gets_no_shortened_step() {
     fixed.default_experiment =
         Some(DefaultExperiment { step_size: Some(0.3), ..fixed.default_experiment.unwrap_or_default() });
     let (_folder, fmu) = folder(&fixed);
-    let error = Times::of(&fmu, None, Some(1.0), None).unwrap_err().to_string();
+    let error = Times::from_fmu(&fmu, None, Some(1.0), None).unwrap_err().to_string();
     assert!(error.contains("does not divide"), "{error}");
-    assert!(Times::of(&fmu, None, Some(1.2), None).is_ok());
+    assert!(Times::from_fmu(&fmu, None, Some(1.2), None).is_ok());
 }
 
 #[test]

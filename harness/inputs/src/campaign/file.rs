@@ -36,7 +36,7 @@ pub struct WrittenDistribution {
     pub values: Vec<String>,
 }
 
-/// What is kept.
+/// Results that are kept.
 #[derive(Clone, Debug)]
 pub struct WrittenKeep {
     /// The final values; `None` without `[keep]`: then of all outputs.

@@ -17,7 +17,7 @@ use crate::{
 
 const ALLOWED_SPEED: &str = "a number of m/s or one with a unit: \"38.2 km/s\"";
 const ALLOWED_ANGLE: &str = "an angle from -360 to 360 deg: a number of rad or one with a unit, \"30 deg\"";
-const MOST_REVOLUTIONS: u32 = 100;
+const MAX_REVOLUTIONS: u32 = 100;
 
 /// A leg file.
 #[derive(Clone, Debug)]
@@ -158,9 +158,9 @@ impl Builder<'_> {
         let [key, branch] = ["revolutions", "branch"].map(|key| arrive.key(key));
         let number = |written: &Written| {
             let Written::Integer(number) = written else { return None };
-            u32::try_from(*number).ok().filter(|it| *it <= MOST_REVOLUTIONS)
+            u32::try_from(*number).ok().filter(|it| *it <= MAX_REVOLUTIONS)
         };
-        let allowed = format_args!("a whole number from 0 to {MOST_REVOLUTIONS}");
+        let allowed = format_args!("a whole number from 0 to {MAX_REVOLUTIONS}");
         let number = match to.revolutions.as_deref() {
             None => 0,
             written => self.read(&key, written, number, allowed)?,

@@ -15,7 +15,7 @@ use crate::{
     values,
 };
 
-/// What a duration looks like, for messages.
+/// Form of a duration, for messages.
 const ALLOWED_TIME: &str = "a number of s or one with a unit: 600, \"10 min\", \"0.5 h\", \"90 d\"";
 
 /// The FMU or spacecraft.
@@ -53,7 +53,7 @@ pub enum Inputs {
 pub struct Plot {
     /// The SVG file.
     pub file: PathBuf,
-    /// What it shows; `None`: everything recorded.
+    /// Variables that it shows; `None`: everything recorded.
     pub names: Option<Vec<At<String>>>,
 }
 
@@ -85,7 +85,7 @@ pub struct Mission {
     pub step_s: Option<f64>,
     /// Time between rows.
     pub every_s: Option<f64>,
-    /// What is recorded; `None`: every output.
+    /// Variables that are recorded; `None`: every output.
     pub record: Option<Vec<At<String>>>,
     /// The CSV file.
     pub output: Option<PathBuf>,
@@ -95,7 +95,7 @@ pub struct Mission {
     pub sets: Vec<At<(String, String)>>,
     /// Inputs over time.
     pub inputs: Option<Inputs>,
-    /// What the run is judged by.
+    /// Limits by which the run is judged.
     pub limits: Vec<At<Bounds>>,
 }
 
@@ -106,7 +106,7 @@ impl Mission {
     /// A file that cannot be read; everything wrong in it with line, key, what was found and what is allowed.
     pub fn read(file: &Path) -> Result<Self, String> {
         let text = FileKind::Mission.read(file)?;
-        if FileKind::of(&text).is_none() {
+        if FileKind::recognize(&text).is_none() {
             return Err(format!(
                 "{}: found a file without any key of a mission, allowed: spacecraft = \"my.toml\" or fmu = \"My.fmu\", stop, step, \
                  record: see `heliotorque new mission`",
@@ -244,7 +244,7 @@ impl Builder<'_> {
         Some(self.at(place, (name, value)))
     }
 
-    /// What `--set` would take.
+    /// Returns the text for `--set`.
     fn value(&mut self, place: &Place<'_>, written: &Written) -> Option<String> {
         let value = written.setting();
         if value.is_none() {

@@ -21,11 +21,11 @@ pub struct Limit {
     pub min: Option<f64>,
     /// The largest.
     pub max: Option<f64>,
-    /// Where the file says so.
+    /// Place in the file.
     pub at: String,
 }
 
-/// What a mission means in an FMU.
+/// Mission resolved for an FMU.
 #[derive(Debug, Default)]
 pub struct Resolved {
     /// Values set before the run.

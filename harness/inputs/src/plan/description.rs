@@ -18,7 +18,7 @@ pub struct MomentumPlanDescription {
     pub freeze: Option<WrittenAs<Number>>,
     /// Length of a window; "3 d" unless given.
     pub window: Option<WrittenAs<Number>>,
-    /// What the momentum is kept below.
+    /// Limit of the momentum.
     pub momentum: Option<MomentumDescription>,
     /// Offsets of the arrays from the Sun.
     pub sun_offset: Option<SunOffsetDescription>,
@@ -44,7 +44,7 @@ pub struct MomentumPlanDescription {
     pub montecarlo: Option<MonteCarloDescription>,
 }
 
-/// What the momentum is kept below.
+/// Limit of the momentum.
 #[derive(Debug, Default, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct MomentumDescription {

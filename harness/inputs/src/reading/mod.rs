@@ -29,7 +29,7 @@ const ALLOWED_MOMENTUM: &str = "a number of N.m.s above 0, or one with that unit
 /// A value with its key and line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct At<T> {
-    /// What it is.
+    /// Value.
     pub it: T,
     /// The key with its tables.
     pub key: String,
@@ -79,7 +79,7 @@ pub fn parse<D: DeserializeOwned, T>(
 pub struct Builder<'d> {
     /// The whole file.
     pub root: Place<'d>,
-    /// That of the file.
+    /// Folder of the file.
     pub folder: &'d Path,
 }
 

@@ -27,7 +27,7 @@ pub enum Written {
 }
 
 impl Written {
-    /// What `--set name=` would take: a vector with commas; `None` for a table.
+    /// Returns the text for `--set name=`: a vector with commas; `None` for a table.
     pub fn setting(&self) -> Option<String> {
         Some(match self {
             Self::Number(number) => number.to_string(),

@@ -29,7 +29,7 @@ const TAIL: usize = 48;
 const RING: usize = 64;
 /// 4 MiB: the rows of some milliseconds.
 pub(super) const RING_WORDS: usize = 1 << 19;
-/// What is wrong with a frame that nobody waits for.
+/// Fault of a frame that was not requested.
 pub const NOT_REQUESTED: &str = "it sent what was not requested";
 /// Longest payload; a row of a million Reals fits.
 const MAX_WORDS: usize = 1 << 21;

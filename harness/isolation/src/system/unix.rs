@@ -55,7 +55,7 @@ pub(crate) fn end(child: &mut Child) -> io::Result<(ExitStatus, Vec<String>)> {
     Ok((child.wait()?, left))
 }
 
-/// Ends every child with all that it started; the program ends next, and whoever starts another one waits for that end.
+/// Ends every child with all that it started; the program ends next, and a thread that starts another one waits for that end.
 pub fn end_all() {
     let mut groups = groups();
     let leaders = mem::take(&mut *groups);

@@ -225,7 +225,7 @@ pub fn end(child: &mut Child) -> io::Result<(ExitStatus, Vec<String>)> {
     Ok((status, left))
 }
 
-/// Ends every child with all that it started; the program ends next, and whoever starts another one waits for that end.
+/// Ends every child with all that it started; the program ends next, and a thread that starts another one waits for that end.
 pub fn end_all() {
     let mut jobs = jobs();
     jobs.drain(..).for_each(|(_, job)| drop(job.end()));

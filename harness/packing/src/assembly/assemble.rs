@@ -17,7 +17,7 @@ use super::{
     start,
 };
 
-/// What an FMU is made of.
+/// Parts of an FMU.
 #[derive(Clone, Copy, Default)]
 pub struct Parts<'a> {
     /// The spacecraft; otherwise the model's own.
@@ -34,7 +34,7 @@ pub struct Parts<'a> {
     pub mission: Option<&'a Mission>,
     /// Start values, written as for `--set`.
     pub sets: &'a [String],
-    /// What becomes a local constant, written as for `--set`.
+    /// Values of variables that become local constants, written as for `--set`.
     pub fixes: &'a [String],
     /// Whether plates have outputs.
     pub per_plate: bool,
@@ -43,7 +43,7 @@ pub struct Parts<'a> {
 }
 
 impl<'a> Parts<'a> {
-    /// What a mission names, where nothing else is given; its values are left out.
+    /// Takes the files that a mission names where no others are given; its values are left out.
     pub fn with_files_of(self, mission: &'a Mission) -> Result<Self, String> {
         let SpacecraftSource::Files { spacecraft, model, timeline, ephemeris } = &mission.spacecraft_source
         else {
@@ -89,7 +89,7 @@ pub struct Assembled {
     pub entries: Entries,
     /// Its name.
     pub identifier: String,
-    /// What the model says of itself.
+    /// Description of the model by itself.
     pub described: Described,
     /// The description with the FMU's own name and start values.
     pub description: Description,

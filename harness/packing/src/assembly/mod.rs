@@ -29,7 +29,7 @@ pub fn reference_flight(entries: &Entries, inputs: &str) -> Result<(Contents, Ve
     entries.write_below(folder.path())?;
     let fmu = Fmu::open(folder.path())?;
     let files = fmi::reference::record(&fmu, inputs).map_err(|error| fmi::Error::chain(&error))?;
-    let start_s = Times::of(&fmu, None, None, None)?.start_s;
+    let start_s = Times::from_fmu(&fmu, None, None, None)?.start_s;
     let messages = instance::started(&fmu, "warnings", start_s, &[])?.messages();
     Ok((files, fmi::warnings(&messages).into_iter().map(str::to_owned).collect()))
 }

@@ -1,4 +1,4 @@
-//! What is packed beside the spacecraft, commands over time and ephemerides, read by the library that simulates it.
+//! Files packed beside the spacecraft, commands over time and ephemerides, read by the library that simulates it.
 
 use fmi::{Binary, Described};
 
@@ -20,7 +20,7 @@ pub(super) const EPHEMERIS: CarriedFile = CarriedFile { option: "--ephemeris", r
 
 impl CarriedFile {
     /// Its name in the resources of a model that takes it.
-    fn of<'d>(&self, model: &'d Described) -> Option<&'d str> {
+    fn name_in<'d>(&self, model: &'d Described) -> Option<&'d str> {
         let mut names = model.schedule_files.iter().map(String::as_str);
         match self.resource {
             Some(resource) => names.find(|name| *name == resource),
@@ -38,8 +38,8 @@ impl CarriedFile {
         (file, text): (&str, &str),
     ) -> Result<String, String> {
         let model = &described.model;
-        let Some(name) = self.of(described) else {
-            let models = binary.models()?.into_iter().filter(|model| self.of(model).is_some());
+        let Some(name) = self.name_in(described) else {
+            let models = binary.models()?.into_iter().filter(|model| self.name_in(model).is_some());
             let names: Vec<String> = models.map(|model| model.model).collect();
             let allowed =
                 if names.is_empty() { "no model of this library".to_owned() } else { names.join(", ") };

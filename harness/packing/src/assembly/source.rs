@@ -1,4 +1,4 @@
-//! Where a new FMU's libraries and licences come from.
+//! Sources of a new FMU's libraries and licences.
 
 use std::{
     error::Error,
@@ -21,7 +21,7 @@ const LICENSES: [(&str, &[u8]); 4] = [
     ("LICENSE-MIT.txt", include_bytes!("../../../../LICENSE-MIT")),
     ("THIRD-PARTY.txt", include_bytes!("../../../../fmu-src/component/THIRD-PARTY.txt")),
 ];
-/// Where FMI 2.0.5 keeps them (2.3); `license.txt` there is the entry.
+/// Folder of licences by FMI 2.0.5 (2.3); `license.txt` there is the entry.
 const FOLDER: &str = "documentation/licenses";
 
 /// Shared libraries, one per platform, or an FMU with them.

@@ -1,4 +1,4 @@
-//! What stands in a spacecraft's file and has no effect in an FMU made of it.
+//! Entries of a spacecraft's file without effect in an FMU made of it.
 
 use model_description::{Description, VariableKind};
 use physics::{plausibility::defaults_at_their_bounds, spacecraft::Spacecraft};

@@ -1,4 +1,4 @@
-//! What an ephemeris file holds, for `ephemeris`, `check` and `info`.
+//! Summary of an ephemeris file, for `ephemeris`, `check` and `info`.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ use physics::{
 /// Its name in the resources.
 pub const FILE: &str = "ephemeris.toml";
 
-/// Which positions an FMU's resources hold, or what is wrong with them.
+/// Reads the positions in an FMU's resources, or their fault.
 pub fn read(resources: &Path) -> Result<String, String> {
     let read = OnboardEphemeris::from_toml(FILE, &files::read_text(&resources.join(FILE))?);
     read.map(|ephemeris| summary(&ephemeris)).map_err(|error| error.to_string())
@@ -29,7 +29,7 @@ pub fn checked(file: &str, text: &str) -> Result<String, String> {
     Ok(table(&read, text.len()))
 }
 
-/// Which bodies, in a line.
+/// Names the bodies, in a line.
 fn summary(ephemeris: &OnboardEphemeris) -> String {
     let precise = ephemeris.precise.iter().map(|body| {
         let Span { start_s, end_s } = body.motion.span();

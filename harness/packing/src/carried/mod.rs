@@ -1,4 +1,4 @@
-//! What FMUs of this project carry beside the spacecraft: commands and positions over time.
+//! Files of FMUs of this project beside the spacecraft: commands and positions over time.
 
 pub mod ephemeris;
 pub mod timeline;
@@ -11,8 +11,8 @@ use inputs::home;
 /// Reads a file of some resources: what it holds in a line, or what is wrong with it, a line for each problem.
 type Read = fn(&Fmu, &Path) -> Result<String, String>;
 
-/// What an FMU carries, by the names of the files.
-pub fn of(fmu: &Fmu) -> Vec<(&'static str, Result<String, String>)> {
+/// Returns the summaries of an FMU's files, by their names.
+pub fn summaries(fmu: &Fmu) -> Vec<(&'static str, Result<String, String>)> {
     let resources = fmu.folder().join("resources");
     let all: [(&str, Read); 2] =
         [(timeline::FILE, timeline::read), (ephemeris::FILE, |_, resources| ephemeris::read(resources))];

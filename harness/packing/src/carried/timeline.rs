@@ -1,4 +1,4 @@
-//! What a timeline file holds, for `info`, `check` and `pack`.
+//! Summary of a timeline file, for `info`, `check` and `pack`.
 
 use std::path::{Path, PathBuf};
 
@@ -18,7 +18,7 @@ pub const FILE: &str = "timeline.toml";
 /// A variable that the models with modes and steered burns have.
 const OF_MODES: &str = "mode.request";
 
-/// What an FMU's resources hold, as its model reads it, or what is wrong with that.
+/// Reads the timeline in an FMU's resources, as its model does, or its fault.
 pub fn read(fmu: &Fmu, resources: &Path) -> Result<String, String> {
     let text = |file: &str| files::read_text(&resources.join(file));
     let spacecraft = Spacecraft::from_toml("spacecraft.toml", &text("spacecraft.toml")?)
@@ -88,7 +88,7 @@ pub fn checked(file: &str, text: &str) -> Result<String, String> {
     ))
 }
 
-/// What one of both models alone does of a timeline that Guidance takes, a line each.
+/// Names the parts of a timeline that one of both models alone carries out, a line each.
 pub fn of_one_model(file: &str, text: &str, spacecraft: &Spacecraft, timeline: &Timeline) -> Vec<String> {
     let refused = Timeline::of_plant(file, text, spacecraft).err();
     let problems = refused.map_or_else(Vec::new, |error| error.problems);

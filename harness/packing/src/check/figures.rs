@@ -1,4 +1,4 @@
-//! What a spacecraft's file comes to, for `heliotorque check`: figures to judge, devices and warnings.
+//! Figures of a spacecraft's file, for `heliotorque check`, with devices and warnings.
 
 use nalgebra::Vector3;
 use physics::{
@@ -83,7 +83,7 @@ fn body(figures: &Figures, sunlight: Sunlight) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// Of sunlight, by what the FMU simulates, and otherwise where that differs.
+/// Torque of sunlight, as the FMU simulates it, and otherwise where that differs.
 fn torque(figures: &Figures, sunlight: Sunlight) -> String {
     let micro = 1e6 * sunlight.flux_w_m2 / SOLAR_FLUX_W_M2;
     let shown = |solar: Option<(Vector3<f64>, Vector3<f64>)>| {
@@ -142,7 +142,7 @@ fn devices(spacecraft: &Spacecraft, figures: &Figures) -> Vec<(&'static str, Str
     rows
 }
 
-/// Where no dump comes, and dumps that cost nothing.
+/// Cases without a dump, and dumps that cost nothing.
 fn dumps(spacecraft: &Spacecraft) -> Vec<String> {
     let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
     let thresholds_n_m_s =
@@ -174,7 +174,7 @@ fn instrument(instrument: &Instrument) -> String {
     format!("{}: looks along {}{gimbal}", instrument.name, triple(&instrument.boresight_body))
 }
 
-/// Where it can look, and its beam.
+/// Range of its directions, and its beam.
 fn antenna(named: &NamedAntenna) -> String {
     let [across_deg, along_deg] = [named.antenna.across_rad, named.antenna.along_rad].map(f64::to_degrees);
     let beam =

@@ -21,7 +21,7 @@ struct CoefficientRow {
 /// # Errors
 /// Calls of the FMU that fail.
 pub fn text(fmu: &Fmu, settings: &[String]) -> Result<String, Error> {
-    let start_s = Times::of(fmu, None, None, None)?.start_s;
+    let start_s = Times::from_fmu(fmu, None, None, None)?.start_s;
     let mut instance = started(fmu, "info", start_s, &assigned(fmu.description(), settings)?)?;
     let mut parts = spacecraft::tables(fmu, &mut instance)?;
     parts.extend(others(fmu, &mut instance)?);

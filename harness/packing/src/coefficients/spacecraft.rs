@@ -1,4 +1,4 @@
-//! What sunshade, torques and wheels of a spacecraft come to, as the FMU itself computes it.
+//! Coefficients of sunshade, torques and wheels of a spacecraft, as the FMU itself computes them.
 
 use fmi::{Error, Fmu, Instance};
 use model_description::Causality;

@@ -1,11 +1,11 @@
-//! What wheels hold: inscribed sphere, guaranteed box, and the box of least-norm sharing, as the FMU shares momentum.
+//! Capacity of wheels: inscribed sphere, guaranteed box, and the box of least-norm allocation, as the FMU allocates momentum.
 
 use fmi::{Error, Fmu, Instance};
 use physics::{momentum::WheelCapacity, spacecraft::free_capacity_n_m_s};
 
 use crate::instance::vector;
 
-/// What the wheels guarantee.
+/// Table of the capacities that the wheels guarantee.
 pub(super) fn table(fmu: &Fmu, instance: &mut Instance) -> Result<String, Error> {
     let count = (1..).take_while(|number| fmu.find(&format!("wheel[{number}].capacity")).is_some()).count();
     let (mut capacities_n_m_s, mut biases_n_m_s, mut axes_body) = (Vec::new(), Vec::new(), Vec::new());

@@ -1,4 +1,4 @@
-//! What the model is, examples, frames.
+//! Opening of the manual: model, examples, frames.
 
 use fmi::Described;
 use model_description::{Description, escape};

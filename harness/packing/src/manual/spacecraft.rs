@@ -1,4 +1,4 @@
-//! What the packed spacecraft holds: surfaces, panels, wheels, thrusters by name.
+//! Contents of the packed spacecraft: surfaces, panels, wheels, thrusters by name.
 
 use model_description::escape;
 use nalgebra::Vector3;

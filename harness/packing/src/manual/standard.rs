@@ -45,7 +45,7 @@ pub(super) fn facts(description: &Description) -> Section {
     ("facts", "Facts and capabilities", format!("<table>\n{}</table>\n", rows.concat()))
 }
 
-/// What an importer may count on between two communication points.
+/// Guarantees for an importer between two communication points.
 pub(super) fn stepping(description: &Description) -> Section {
     let mut page = String::from(
         "<p>Communication points may lie anywhere: while inputs and tunable parameters stay \
@@ -79,7 +79,7 @@ pub(super) fn stepping(description: &Description) -> Section {
     ("stepping", "Stepping", page)
 }
 
-/// Which function may be called in which state.
+/// Table of the functions that may be called in each state.
 pub(super) fn calls() -> Section {
     let mut page = String::from(
         "<p>Which function may be called in which state (FMI 2.0.5, 4.2.4). A call \

@@ -13,7 +13,7 @@ use physics::{
 };
 use terminal::short;
 
-/// What chooses the body that a plant orbits.
+/// Variable that chooses the body that a plant orbits.
 const CENTER: &str = "orbit.center";
 /// A half turn to within rounding: no limit.
 const EVERYWHERE_DEG: f64 = 89.999;
@@ -22,12 +22,12 @@ const EVERYWHERE_DEG: f64 = 89.999;
 struct Plant<'a> {
     description: &'a Description,
     sets: &'a [(String, Value)],
-    /// The file's own, of which shares of the period follow the orbit.
+    /// Windows of the file; shares of the period follow the orbit.
     windows: Option<DownlinkWindows>,
     prefix: &'a str,
 }
 
-/// What a plant's variables begin with, and the windows of its spacecraft's file.
+/// Prefix of a plant's variables, and the windows of its spacecraft's file.
 pub type Windows = (String, DownlinkWindows);
 
 /// The windows of a spacecraft's file, if it has any.

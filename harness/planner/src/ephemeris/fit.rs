@@ -31,7 +31,7 @@ const HALVINGS: u32 = 12;
 /// Epochs, evenly spaced, at which coarse elements are checked.
 const COARSE_CHECKS: u32 = 2_000;
 
-/// What is requested of a fit.
+/// Requested accuracy and extent of a fit.
 #[derive(Clone, Copy, Debug)]
 pub struct Requested {
     /// First and last epoch, in s past J2000 TDB.

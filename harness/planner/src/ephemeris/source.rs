@@ -1,4 +1,4 @@
-//! What an ephemeris is fitted to: states of bodies and of the spacecraft about a centre.
+//! Sources of a fit: states of bodies and of the spacecraft about a centre.
 
 use physics::{
     bodies::Body,
@@ -12,7 +12,7 @@ pub trait Source {
     /// From where positions count.
     fn center(&self) -> Body;
 
-    /// What an ephemeris says of where it comes from.
+    /// Title of the ephemeris, which names its origin.
     fn title(&self) -> String;
 
     /// Positions and velocities of each target from the centre at epochs that do not fall, in s past J2000 TDB; `reported` hears

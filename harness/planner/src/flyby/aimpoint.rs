@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use super::{encounter::Encounter, sensitivity::Sensitivity};
 use crate::momentum::{encountered::Encountered, simulated::FlightRow};
 
-/// Where the B-plane of the hyperbola that osculates some time before the closest approach is to be met.
+/// Aim in the B-plane of the hyperbola that osculates some time before the closest approach.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BPlaneAimpoint {
     /// B along T and R, in m.
@@ -17,7 +17,7 @@ pub struct BPlaneAimpoint {
 }
 
 impl BPlaneAimpoint {
-    /// What an encounter reaches less this: B.T and B.R in m, arrival in s (0 where it is free).
+    /// Returns the encounter less the aim: B.T and B.R in m, arrival in s (0 where it is free).
     pub fn miss(&self, encounter: &Encounter) -> Vector3<f64> {
         Vector3::new(
             encounter.plane.b_t_m - self.b_m[0],

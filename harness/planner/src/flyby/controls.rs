@@ -1,4 +1,4 @@
-//! What the controls of windows change at an encounter.
+//! Changes of an encounter by the controls of windows.
 //!
 //! Equation: d(B.T, B.R, arrival) = integral of L_v(t) da(t) dt over the window, L_v the partials by velocity, a = F / m the acceleration
 //! by sunlight, da that by offset, windmill, place of the Sun or the share of the alternate attitude.
@@ -16,7 +16,7 @@ use crate::momentum::{
     windows::Window,
 };
 
-/// Of every window of a flight that sensitivities are of; `flight` has the geometry and the mass.
+/// Returns the partials of every window; `flight`, whose sensitivities they are, has the geometry and the mass.
 pub fn lead_by_windows(
     sensitivity: &Sensitivity,
     sunlit: &SunlitSpacecraft,
@@ -38,7 +38,7 @@ pub fn lead_by_windows(
         for pair in rows.get(from..to).unwrap_or_default().windows(2) {
             let share = window.alternate_at(0.5 * (pair[0].time_s + pair[1].time_s));
             let pair = [&pair[0], &pair[1]];
-            let [from, to] = pair.map(|row| At::of(sunlit, row, window, by_impulse(row)));
+            let [from, to] = pair.map(|row| At::new(sunlit, row, window, by_impulse(row)));
             sum += cell(0, window, pair, [&from, &to], share).moves;
         }
         sum

@@ -10,13 +10,13 @@ use physics::numerics::noise::{Channel, normal, normal_vector};
 pub struct Dispersions {
     /// Lower triangular root of the covariance of position (m) and velocity (m/s).
     pub state_root: Option<Matrix6<f64>>,
-    /// Of each coordinate of the centre of mass, in m.
+    /// Standard deviation of each coordinate of the centre of mass, in m.
     pub center_of_mass_m: f64,
-    /// Of the scale of sunlight.
+    /// Standard deviation of the scale of sunlight.
     pub scale: f64,
 }
 
-/// What a run is off by.
+/// Errors of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Draw {
     /// Position, EME2000, in m.
@@ -36,7 +36,7 @@ impl Dispersions {
         Some(self)
     }
 
-    /// Of a run.
+    /// Draws the errors of a run.
     pub fn draw(&self, seed: u64, run: u64) -> Draw {
         let of = |number: u16| normal_vector(seed, Channel::Dispersion(number), run);
         let (position, velocity) = (of(0), of(1));
@@ -51,7 +51,7 @@ impl Dispersions {
     }
 }
 
-/// What a dispersed flight came to.
+/// Result of a dispersed flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
     /// B.T and B.R less the aimpoint, in m.

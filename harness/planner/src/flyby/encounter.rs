@@ -22,14 +22,14 @@ const AROUND_S: f64 = 60.0;
 /// A closest approach farther away than this many spheres of influence is none.
 const SPHERES: f64 = 3.0;
 
-/// Where a flight is nearest to the planet of its encounter, or would be.
+/// Closest approach of a flight to the planet of its encounter, also one that would come after its end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Encounter {
     /// Time of closest approach, in s of the flight.
     pub time_s: f64,
     /// Time at which the hyperbola osculates, in s of the flight.
     pub epoch_s: f64,
-    /// That hyperbola.
+    /// B-plane of the osculating hyperbola.
     pub plane: BPlane,
     /// The spacecraft from the planet then, EME2000.
     pub at_epoch: CartesianState,
@@ -42,11 +42,11 @@ pub struct Encounter {
 }
 
 impl Encounter {
-    /// Of a recorded flight that comes to its encounter, or comes near and would continue to it.
+    /// Finds the encounter of a recorded flight that comes to it, or comes near and would continue to it.
     ///
     /// # Errors
     /// A flight without motion, one that does not come near, an osculating orbit that is no hyperbola.
-    pub(super) fn of(path: &Path<'_>, force_model: &ForceModel) -> Result<Self, String> {
+    pub(super) fn new(path: &Path<'_>, force_model: &ForceModel) -> Result<Self, String> {
         let about_s = first_guess_s(path, force_model)?;
         let lead_s = force_model.lead_s;
         if !(lead_s.is_finite() && lead_s >= 0.0) {
@@ -131,7 +131,7 @@ fn first_guess_s(path: &Path<'_>, force_model: &ForceModel) -> Result<f64, Strin
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PredictedPath<'a> {
     pub force_model: &'a ForceModel,
-    /// Where it begins, in s of the flight.
+    /// Begin, in s of the flight.
     pub start_s: f64,
     /// The spacecraft from the planet of the encounter there.
     pub state: CartesianState,

@@ -34,7 +34,7 @@ pub struct ForceModel {
     pub moon: bool,
     /// Whether the Sun's relativity acts.
     pub relativity: bool,
-    /// What turns a time of the flight into s past J2000 TDB.
+    /// Difference between s past J2000 TDB and the time of the flight.
     pub epoch_minus_time_s: f64,
     /// How long before closest approach the hyperbola osculates that B is of, in s.
     pub lead_s: f64,
@@ -45,7 +45,7 @@ impl ForceModel {
     ///
     /// # Errors
     /// No nBody, no encounter, or one with a body that no ephemeris here places.
-    pub fn of(values: &StartValues<'_>, start_s: f64) -> Result<Self, String> {
+    pub fn new(values: &StartValues<'_>, start_s: f64) -> Result<Self, String> {
         let dynamics = values.item("orbit.dynamics").unwrap_or("none");
         if dynamics != "nBody" {
             return Err(format!(
@@ -93,7 +93,7 @@ impl ForceModel {
         NBodyGravity::new(settings, GravityModel::new(center, rows, self.relativity))
     }
 
-    /// Where the planets are by VSOP87.
+    /// Returns the positions of the planets by VSOP87.
     pub(super) fn planets(&self) -> Planets {
         Planets { ephemeris: Ephemeris::default(), epoch_minus_time_s: self.epoch_minus_time_s }
     }
@@ -140,7 +140,7 @@ pub(super) struct Path<'a> {
 impl<'a> Path<'a> {
     /// # Errors
     /// Fewer than two rows, or rows without motion.
-    pub(super) fn of(flight: &'a SimulatedFlight) -> Result<Self, String> {
+    pub(super) fn new(flight: &'a SimulatedFlight) -> Result<Self, String> {
         let with_motion = |row: &'a FlightRow| Some(PathRow { row, motion: row.motion.as_ref()? });
         let rows: Option<Vec<_>> = flight.rows.iter().map(with_motion).collect();
         let rows = rows.filter(|rows| rows.len() > 1);

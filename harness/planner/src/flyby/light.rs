@@ -1,6 +1,6 @@
 //! Acceleration by light as a function of the place, of a spacecraft whose attitude follows Sun and Earth.
 //!
-//! Equation: the force F goes by the pressure, with d from the Sun as 1 / d^2, and turns with the body: dF = dtheta x F + F dP / P. In
+//! Equation: the force F is proportional to the pressure, 1 / d^2 at d from the Sun, and turns with the body: dF = dtheta x F + F dP / P. In
 //! downlinks the Sun stands still in the body frame and the Earth stays across w, the Z axis (alternate: turned by 180 deg about the
 //! Sun line s): dtheta = s x ds + a s, a (s . (w x e)) = -w . de - (s x ds) . (w x e), e toward the Earth. Otherwise a = 0. Arrays stand
 //! still to the Sun, or follow its distance: then F changes by that too.
@@ -30,7 +30,7 @@ pub(super) struct LightAlong<'a> {
     alternate: Vec<Option<bool>>,
 }
 
-/// Where the attitude turns over because Sun and Earth have come to an angle.
+/// Time at which the attitude turns over because Sun and Earth have come to an angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Flip {
     /// In s of the flight.
@@ -70,7 +70,7 @@ impl<'a> LightAlong<'a> {
         Matrix3::from_columns(&columns) / motion.mass_kg
     }
 
-    /// Where the attitude of downlinks turns over by itself, in the order of time.
+    /// Returns the times at which the attitude of downlinks turns over by itself, in order.
     pub(super) fn flips(&self) -> Vec<Flip> {
         let pairs = self.path.rows.windows(2).zip(self.alternate.windows(2));
         let flip = |(rows, alternate): (&[PathRow<'_>], &[Option<bool>])| {

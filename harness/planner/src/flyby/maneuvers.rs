@@ -12,11 +12,11 @@ use nalgebra::{Matrix2, Matrix2x3, Matrix3, Matrix3x2, SymmetricEigen, Vector2, 
 pub struct ExecutionErrors {
     /// About each axis across, in rad.
     pub direction_rad: f64,
-    /// Of its size, as a share.
+    /// Standard deviation of its size, relative.
     pub magnitude: f64,
 }
 
-/// What is known of a miss in the B-plane.
+/// Estimate of a miss in the B-plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Miss {
     /// Mean, along T and R, in m.
@@ -44,7 +44,7 @@ pub struct Maneuver {
     pub mean_m_s: Vector3<f64>,
     /// Root mean square of its size, in m/s.
     pub rms_m_s: f64,
-    /// What it leaves.
+    /// Miss after the manoeuvre.
     pub left: Miss,
 }
 

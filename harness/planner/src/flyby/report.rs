@@ -1,4 +1,4 @@
-//! What a plan with a flyby came to, as members of `plan.json`, as `desired.csv` and as `sensitivity.csv`.
+//! Results of a plan with a flyby, as members of `plan.json`, as `desired.csv` and as `sensitivity.csv`.
 
 use nalgebra::{Matrix2, Vector2, Vector3};
 use serde_json::{Map, Value, json};
@@ -42,12 +42,12 @@ pub struct Campaign {
     pub covariance_m2: Matrix2<f64>,
 }
 
-/// What a plan with a flyby came to.
+/// Results of a plan with a flyby.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FlybyReport {
     /// B along T and R aimed at, in m.
     pub aimpoint_m: [f64; 2],
-    /// What turns a time of the flight into s past J2000 TDB.
+    /// Difference between s past J2000 TDB and the time of the flight.
     pub epoch_minus_time_s: f64,
     /// Radius of the planet, in m.
     pub radius_m: f64,
@@ -56,7 +56,7 @@ pub struct FlybyReport {
     /// Encounter of the plan's flight, of the mission's where there is no plan: closest approach and osculation in s of the flight,
     /// altitude in m, speed far from the planet in m/s.
     pub encounter: [f64; 4],
-    /// Where the encounter can be moved to from where the mission meets it.
+    /// Places that the encounter can be moved to from the mission's own.
     pub reach: Reachable,
     /// Whether no choice of arrays and attitudes that reaches the aimpoint was found.
     pub is_out_of_reach: bool,

@@ -1,4 +1,4 @@
-//! What an encounter depends on: B.T, B.R and time of closest approach by the state at any time before.
+//! Partials of an encounter: B.T, B.R and time of closest approach by the state at any time before.
 //!
 //! Method: partials at the epoch of osculation are carried back along the recorded path by the adjoint equation, with the gradient of
 //! all that attracts and of light, in cells of a day at most and of 0.3 of the distance over the speed near a planet.
@@ -36,7 +36,7 @@ pub struct Sensitivity {
 }
 
 impl Sensitivity {
-    /// Of a recorded flight of this spacecraft.
+    /// Computes the partials of a recorded flight of this spacecraft.
     ///
     /// # Errors
     /// See [`Encounter`]; a gradient that is not finite.
@@ -45,8 +45,8 @@ impl Sensitivity {
         force_model: &ForceModel,
         sunlit: &SunlitSpacecraft,
     ) -> Result<Self, String> {
-        let path = Path::of(flight)?;
-        let encounter = Encounter::of(&path, force_model)?;
+        let path = Path::new(flight)?;
+        let encounter = Encounter::new(&path, force_model)?;
         let light = LightAlong::new(&path, sunlit);
         let gravity = force_model.gravity(Body::Sun);
         let planets = force_model.planets();
@@ -134,12 +134,12 @@ impl DesiredDeltaV {
         self.delta_v_m_s.norm()
     }
 
-    /// Of its direction in EME2000, from 0 to 2 pi, in rad.
+    /// Right ascension of its direction in EME2000, from 0 to 2 pi, in rad.
     pub fn right_ascension_rad(&self) -> f64 {
         self.delta_v_m_s.y.atan2(self.delta_v_m_s.x).rem_euclid(core::f64::consts::TAU)
     }
 
-    /// Of its direction in EME2000, in rad.
+    /// Declination of its direction in EME2000, in rad.
     pub fn declination_rad(&self) -> f64 {
         self.delta_v_m_s.z.atan2(self.delta_v_m_s.x.hypot(self.delta_v_m_s.y))
     }

@@ -29,7 +29,7 @@ pub fn b_m(aimpoint: &FlybyAimpoint, excess_speed_m_s: f64, mu_m3_s2: f64, radiu
     }
 }
 
-/// What a closest approach does to the path.
+/// Effect of a closest approach on the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flyby {
     /// Angle by which the velocity far from the body turns, rad.
@@ -39,8 +39,8 @@ pub struct Flyby {
 }
 
 impl Flyby {
-    /// Of a hyperbola by its closest distance from the body's centre.
-    pub fn of(distance_m: f64, excess_speed_m_s: f64, mu_m3_s2: f64) -> Self {
+    /// Computes the flyby of a hyperbola by its closest distance from the body's centre.
+    pub fn new(distance_m: f64, excess_speed_m_s: f64, mu_m3_s2: f64) -> Self {
         let eccentricity = 1.0 + distance_m * excess_speed_m_s * excess_speed_m_s / mu_m3_s2;
         Self {
             turn_rad: 2.0 * (1.0 / eccentricity).asin(),

@@ -1,4 +1,4 @@
-//! What a flight does near a body: closest approach, and B of the hyperbola that osculates before it.
+//! Flight near a body: closest approach, and B of the hyperbola that osculates before it.
 
 use nalgebra::{Vector2, Vector3};
 use physics::environment::{
@@ -13,7 +13,7 @@ pub struct ApproachRow {
     pub time_s: f64,
     /// Position and velocity from the body's centre, EME2000.
     pub state: CartesianState,
-    /// Of the hyperbola that osculates then.
+    /// B-plane of the hyperbola that osculates then.
     pub b_plane: BPlane,
 }
 

@@ -10,4 +10,4 @@ mod tests;
 pub use crate::Failure;
 pub use aimpoint::{Flyby, b_m, closest_distance_m, impact_parameter_m};
 pub use approach::{Approach, ApproachRow, Encounter};
-pub use shooting::{Leg, LegError, LegTask, MOST_LEG_S, SimulatesLeg, shoot};
+pub use shooting::{Leg, LegError, LegTask, MAX_LEG_S, SimulatesLeg, shoot};

@@ -1,4 +1,4 @@
-//! What a leg came to, as `plan.json`.
+//! Results of a leg, as `plan.json`.
 
 use inputs::leg::FlybyAimpoint;
 use nalgebra::Vector3;
@@ -38,7 +38,7 @@ fn instant(time_s: f64, zero_epoch_s: Option<f64>) -> Value {
 /// The flyby of a leg by its closest approach and the hyperbola that osculates there.
 pub fn flyby(task: &LegTask, leg: &Leg) -> Flyby {
     let distance_m = task.radius_m + leg.encounter.altitude_m;
-    Flyby::of(distance_m, leg.encounter.excess_speed_there_m_s, task.mu_m3_s2)
+    Flyby::new(distance_m, leg.encounter.excess_speed_there_m_s, task.mu_m3_s2)
 }
 
 /// Delta-v of the departure, EME2000, in m/s, where the velocity before it is known.

@@ -37,22 +37,22 @@ const ROUNDS: u32 = 25;
 /// Largest change of velocity of a round, as a share of it.
 const LARGEST_CHANGE: f64 = 0.02;
 /// Longest leg, in s: ten years, for flights take time in proportion.
-pub const MOST_LEG_S: f64 = 10.0 * 365.25 * 86_400.0;
+pub const MAX_LEG_S: f64 = 10.0 * 365.25 * 86_400.0;
 /// Greatest speed at either end of an arc, in m/s: a thousandth of that of light, and more than any fall into the Sun from rest gives.
-const MOST_SPEED_M_S: f64 = 3e5;
+const MAX_SPEED_M_S: f64 = 3e5;
 /// Share of the velocity by which it is varied for the first matrix.
 const VARIATION: f64 = 1e-6;
 
-/// What is looked for.
+/// Departure, aim and limits of a leg.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LegTask {
-    /// Where the leg begins, from the Sun, EME2000, m.
+    /// Position at the departure, from the Sun, EME2000, m.
     pub position_m: Vector3<f64>,
     /// When, s of the flight.
     pub start_s: f64,
     /// When the closest approach shall be, s of the flight.
     pub arrival_s: f64,
-    /// Where it shall pass the body.
+    /// Aimpoint at the body.
     pub aimpoint: FlybyAimpoint,
     /// How long before the closest approach the hyperbola of B osculates, s.
     pub lead_s: f64,
@@ -97,13 +97,13 @@ pub trait SimulatesLeg {
 pub struct Leg {
     /// Velocity at the start, EME2000, m/s.
     pub velocity_m_s: Vector3<f64>,
-    /// That of Lambert's arc to the body's centre.
+    /// Velocity of Lambert's arc to the body's centre.
     pub lambert_m_s: Vector3<f64>,
     /// The body at the requested arrival, from the Sun, EME2000.
     pub body: CartesianState,
-    /// What the last flight did.
+    /// Encounter of the last flight.
     pub encounter: Encounter,
-    /// What that flight misses the aimpoint by along T and R, m.
+    /// Miss of the aimpoint by that flight, along T and R, m.
     pub miss_m: [f64; 2],
     /// Flights, those without the body's gravity first.
     pub rounds: [u32; 2],
@@ -118,7 +118,7 @@ pub enum LegError {
     /// An arc that takes too great a speed.
     #[error(
         "found an arc of {days:.3} d with {speed_km_s:.1} km/s at an end, allowed: up to {} km/s, an arrival later",
-        1e-3 * MOST_SPEED_M_S
+        1e-3 * MAX_SPEED_M_S
     )]
     Fast {
         /// Its time, in d.
@@ -196,7 +196,7 @@ impl LegTask {
         }
     }
 
-    /// What an encounter lacks to the aimpoint along T and R, and along S by its time, m.
+    /// Returns the distance of an encounter from the aimpoint along T and R, and along S by its time, m.
     fn lacks_m(&self, found: &Encounter) -> Vector3<f64> {
         let lacks = match self.aimpoint {
             FlybyAimpoint::Plane { .. } => {
@@ -243,7 +243,7 @@ pub fn shoot(task: &LegTask, flights: &mut dyn SimulatesLeg) -> Result<Leg, LegE
     let body = flights.body(task.arrival_s).map_err(LegError::Flight)?;
     let [lambert_m_s, end_m_s] = task.lambert_m_s(body.position_m)?;
     let speed_m_s = lambert_m_s.norm().max(end_m_s.norm());
-    if speed_m_s > MOST_SPEED_M_S {
+    if speed_m_s > MAX_SPEED_M_S {
         let days = (task.arrival_s - task.start_s) / DAY_S;
         return Err(LegError::Fast { days, speed_km_s: 1e-3 * speed_m_s });
     }

@@ -193,7 +193,7 @@ fn what_cannot_be_is_refused_before_a_flight_to_the_body() {
 #[test]
 fn a_flyby_turns_by_what_its_hyperbola_turns() {
     // Paper 003's second flyby: 200 km, 5.2 km/s, 2452 m/s; two states far out on an orbit in closed form.
-    let flyby = Flyby::of(RADIUS_MERCURY_M + 2e5, 5.2e3, GM_MERCURY_M3_S2);
+    let flyby = Flyby::new(RADIUS_MERCURY_M + 2e5, 5.2e3, GM_MERCURY_M3_S2);
     let b_m = impact_parameter_m(RADIUS_MERCURY_M + 2e5, 5.2e3, GM_MERCURY_M3_S2);
     let far_m = 1e13;
     let start = CartesianState {

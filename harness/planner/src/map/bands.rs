@@ -26,7 +26,7 @@ pub(super) fn draw(
     }
 }
 
-/// The nodes of which something holds.
+/// Nodes at which a condition holds.
 pub(super) fn area(
     frame: &Frame,
     pen: &mut Pen,

@@ -6,8 +6,8 @@ use nalgebra::Vector3;
 
 use super::{options::Steps, spacecraft::MappedSpacecraft};
 use crate::{
-    momentum::{Held, Mission, Region},
-    torque_map::{Angles, Grid, Mapped, Sunlight, Worth, least, worths},
+    momentum::{HoldableDays, Mission, Region},
+    torque_map::{Angles, Grid, Mapped, Sunlight, TorqueSensitivity, least, worths},
 };
 
 /// All directions.
@@ -17,13 +17,13 @@ const ZONE_STEPS: [usize; 2] = [60, 60];
 /// The targeted components.
 const TARGETED: [usize; 2] = [0, 2];
 
-/// What downlinks can do.
+/// Momentum that downlinks can attain.
 pub(super) struct Attainable {
-    /// What they can add to the mean torque about X and Z, in N m: 0 is the Sun on -Y.
+    /// Mean torque about X and Z that they can add, in N m: 0 is the Sun on -Y.
     pub added_n_m: Region,
     /// The same at the mission's mean light.
     pub mean_added_n_m: Region,
-    pub mission: Option<(Mission, Held)>,
+    pub mission: Option<(Mission, HoldableDays)>,
 }
 
 /// Everything found.
@@ -31,12 +31,12 @@ pub(super) struct Found {
     pub sphere: Mapped,
     /// The keep-in zone, if there is one.
     pub zone: Option<Mapped>,
-    /// Where the whole torque is least in the zone, without one anywhere.
+    /// Minimum of the whole torque in the zone, or anywhere without a zone.
     pub least: (Angles, Vector3<f64>),
     /// Torque with the Sun on -Y.
     pub ahead_n_m: Vector3<f64>,
     /// Torque with the Sun where a degree is weighed, and what that is worth.
-    pub weighed: (Vector3<f64>, Vec<Worth>),
+    pub weighed: (Vector3<f64>, Vec<TorqueSensitivity>),
     pub attainable: Attainable,
 }
 

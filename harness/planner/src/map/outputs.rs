@@ -9,14 +9,14 @@ use inputs::svg_path::check_svg_path;
 use super::{found::Found, options::Map, picture, spacecraft::MappedSpacecraft};
 use crate::torque_map::{Angles, direction};
 
-/// What names the files.
+/// Options that name the files.
 const OPTIONS: [&str; 3] = ["--output", "--csv", "--lines"];
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Where everything goes: picture, torque, lines.
+/// Destinations of picture, torque, lines.
 pub(super) struct Outputs([Option<(Destination, PathBuf)>; 3]);
 
-/// What was written.
+/// Files that were written.
 pub(super) struct Written {
     pub takes_stdout: bool,
     pub files: Vec<String>,

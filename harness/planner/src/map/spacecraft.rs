@@ -1,4 +1,4 @@
-//! What is mapped: the FMU of a file, how its panels follow the Sun, zone, downlinks and thresholds.
+//! Spacecraft that is mapped: the FMU of a file, how its panels follow the Sun, zone, downlinks and thresholds.
 
 use files::{Entries, Scratch};
 use fmi::{Described, Fmu, Value};
@@ -248,7 +248,7 @@ fn panels_left_out(simulated: &Description) -> bool {
     (1..).map_while(enabled).any(|enabled| enabled == Value::Boolean(false))
 }
 
-/// Where the file puts the Sun, otherwise the mean distance of the body it orbits.
+/// Distance of the Sun by the file, otherwise the mean distance of the body it orbits.
 fn distance_m(described: &Description, simulated: &Description, default: &Description) -> f64 {
     let sun_m = |description: &Description| {
         Vector3::from(

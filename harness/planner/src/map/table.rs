@@ -12,7 +12,7 @@ use super::{
 use crate::torque_map::{Angles, Mapped, Rule};
 
 /// Rows of a table at most.
-const MOST_ROWS: usize = 12;
+const MAX_ROWS: usize = 12;
 const NAMES: [&str; 3] = ["X", "Y", "Z"];
 
 /// All of it.
@@ -107,7 +107,7 @@ fn lines(mapped: &Mapped, where_: &str) -> String {
     // The longest lines first within an axis.
     all.sort_by_key(|(name, line)| (*name, std::cmp::Reverse(line.places_deg.len())));
     let count = all.len();
-    for (name, line) in all.into_iter().take(MOST_ROWS) {
+    for (name, line) in all.into_iter().take(MAX_ROWS) {
         let span = |of: usize| line.extent_deg(of).map(angle).join(", ");
         let crossings = |of: usize| match line.is_along(of) {
             true => "along it".to_owned(),
@@ -141,7 +141,7 @@ fn balances(mapped: &Mapped, where_: &str) -> String {
         "Y [uN.m]",
         "a small turn about X, Z is",
     ]);
-    for balance in mapped.balances.iter().take(MOST_ROWS) {
+    for balance in mapped.balances.iter().take(MAX_ROWS) {
         let [mut azimuth, elevation] = balance.place_deg.map(angle);
         if balance.place_deg[1].abs() > 90.0 - 1e-4 {
             "any".clone_into(&mut azimuth);
@@ -153,7 +153,7 @@ fn balances(mapped: &Mapped, where_: &str) -> String {
 }
 
 fn more(count: usize) -> String {
-    match count.saturating_sub(MOST_ROWS) {
+    match count.saturating_sub(MAX_ROWS) {
         0 => String::new(),
         more => format!("\n{more} more: see --lines and the picture"),
     }

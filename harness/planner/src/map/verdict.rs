@@ -1,4 +1,4 @@
-//! What downlinks can hold, in words, for table and picture.
+//! Verdict on the momentum that downlinks can hold, in words, for table and picture.
 
 use super::{found::Attainable, spacecraft::MappedSpacecraft};
 

@@ -5,7 +5,7 @@
 
 use super::{
     baseline::{OffsetStep, shared_rad},
-    in_force::{InForce, mean},
+    in_force::{ActiveControls, mean},
     planned::{AGREED, Least, MomentumPlan, PlanTask},
     simulated::{SAME_S, SimulatedFlight},
     torque::{Control, Controls, SunlitSpacecraft},
@@ -26,7 +26,7 @@ fn is_within(value: f64, [low, high]: [f64; 2]) -> bool {
 }
 
 /// Offset and windmill angle of the mission just before a time, where they are known, in rad.
-fn arrays_before_rad(own: &[InForce], at_s: f64) -> Option<[f64; 2]> {
+fn arrays_before_rad(own: &[ActiveControls], at_s: f64) -> Option<[f64; 2]> {
     own.iter().rfind(|it| it.at_s < at_s - SAME_S).map(|it| arrays_rad(&it.controls))
 }
 

@@ -1,4 +1,4 @@
-//! What any choice of controls attains, by the linear model before any flight of a plan: excess, dumps, places in the B-plane.
+//! Bounds of what any choice of controls attains, by the linear model before any flight of a plan: excess, dumps, places in the B-plane.
 //!
 //! The places that the target can be moved to are convex as far as it is linear in the controls. Each of their corners is the farthest in
 //! one direction, solved again about its own answer, for tilt, windmilling and alternation multiply; a direction whose own place is behind
@@ -26,12 +26,12 @@ const DIRECTIONS: usize = 16;
 const REACH_ROWS_S: f64 = 6.0 * 3600.0;
 /// By which the range of the controls about an answer narrows where the next is no farther, and where that ends.
 const NARROWED: f64 = 0.5;
-const LEAST_RANGE: f64 = 0.01;
+const MIN_RANGE: f64 = 0.01;
 /// A place farther by less than this share is the last.
 const GAINED: f64 = 2e-3;
 /// Times that directions begin again from the farthest of all corners, at most.
 const RESTARTS: usize = 3;
-/// Along one axis the other one is kept within so many m by the model, and within this share of the way in the end.
+/// Largest offset across an axis along which a place is sought: in m by the model, and in the end relative to the way.
 const ASIDE_M: f64 = 10.0;
 const ASIDE: f64 = 0.03;
 
@@ -273,7 +273,7 @@ impl Search<'_> {
         model.look_between();
         let aside = Vector2::new(-direction.y, direction.x);
         let mut trust = WHOLE;
-        while trust > LEAST_RANGE {
+        while trust > MIN_RANGE {
             let LinearMiss { constant, terms } = model.linear_miss(&leaders)?;
             let mut program = model.program(&leaders, model.whole(), [GUARD, trust]);
             let by = |axis: Vector2<f64>| terms.iter().map(move |(index, by)| (*index, axis.dot(&by.xy())));

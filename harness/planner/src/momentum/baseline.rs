@@ -121,7 +121,7 @@ fn step(at_s: f64, [low, high]: [f64; 2]) -> OffsetStep {
     OffsetStep { at_s, offset_rad: 0.5 * (low + high) }
 }
 
-/// So many steps at these times, the narrowest as wide as possible; `None` where they do not suffice.
+/// Places `count` steps at these times, the narrowest as wide as possible; `None` where they do not suffice.
 fn at_edges(bounds: &[Bound], starts_s: &[f64], count: usize) -> Option<Vec<OffsetStep>> {
     let cells: Vec<[f64; 2]> = (0..starts_s.len())
         .map(|cell| {

@@ -23,9 +23,9 @@ pub(crate) struct Cell {
     pub by_control: [Vector3<f64>; CONTROLS],
     /// Momentum gained by the centre of mass and the scale of sunlight.
     pub by_error: Matrix3x4<f64>,
-    /// What it does about the target.
+    /// Change of the target by the cell.
     pub moves: Moves,
-    /// What it leaves where the mission dumps in it.
+    /// Momentum after the mission's dump in the cell, if there is one.
     pub reset: Option<Vector3<f64>>,
 }
 
@@ -34,7 +34,7 @@ pub(crate) struct At {
     load: LinearTorque,
     scale: f64,
     other: Vector3<f64>,
-    /// What the encounter moves by, by force times time.
+    /// Partials of the encounter by force times time.
     by_impulse: Matrix3<f64>,
 }
 
@@ -48,7 +48,7 @@ struct Mean {
 
 impl At {
     /// At the window's present controls; `by_impulse` is what the encounter moves by, by force times time.
-    pub(crate) fn of(
+    pub(crate) fn new(
         sunlit: &SunlitSpacecraft,
         row: &FlightRow,
         window: &Window,

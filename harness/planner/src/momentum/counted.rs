@@ -1,8 +1,8 @@
-//! What is counted: fewest dumps, fewest changes of the arrays, each with a bound from below.
+//! Counts: fewest dumps, fewest changes of the arrays, each with a bound from below.
 //!
 //! **Dumps.** A dump leaves any momentum within the limit, so the flight falls into parts that do not know of one another, and a part of
 //! a feasible part is feasible: continuing as far as some choice of controls allows and dumping there gives the fewest (of the linear
-//! model). Of all ways with that number the one is taken that does with the smallest limit. From below: the same by relaxed programmes.
+//! model). Among the plans with that number the one with the smallest limit is taken. From below: the same by relaxed programmes.
 //!
 //! **Changes.** The arrays stand alike over groups of neighbouring windows. Steps of the baseline begin a group in any case. From below:
 //! windows that cannot share a windmill angle whatever the momentum before them have a change among them; such spans that share no edge
@@ -33,7 +33,7 @@ pub(super) struct Dumps {
     pub at_least: usize,
 }
 
-/// Which windows' arrays stand alike.
+/// Groups of windows whose arrays stand alike.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Groups {
     /// First window of the group of every window.
@@ -230,7 +230,7 @@ impl Search<'_> {
         }
     }
 
-    /// A plan with so many more changes; `None` where there is none or the time is over.
+    /// Searches a plan with that many more changes; `None` where there is none or the time is over.
     fn descend(
         &mut self,
         changes: &mut Vec<usize>,

@@ -10,7 +10,7 @@ use super::{
 
 /// Controls from a time on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct InForce {
+pub struct ActiveControls {
     /// In s of the flight.
     pub at_s: f64,
     /// Up to the next one.
@@ -18,7 +18,7 @@ pub struct InForce {
 }
 
 /// Mean over a span of time; `None` where nothing is in force at its beginning. The controls are in the order of time.
-pub(super) fn mean(all: &[InForce], [from_s, to_s]: [f64; 2]) -> Option<Controls> {
+pub(super) fn mean(all: &[ActiveControls], [from_s, to_s]: [f64; 2]) -> Option<Controls> {
     all.first().filter(|first| first.at_s <= from_s + SAME_S)?;
     let mut mean = Controls::default();
     for (index, it) in all.iter().enumerate() {
@@ -38,8 +38,8 @@ mod tests {
     use super::*;
     use crate::momentum::torque::Control;
 
-    fn in_force() -> Vec<InForce> {
-        let of = |at_s, azimuth_rad, alternate| InForce {
+    fn in_force() -> Vec<ActiveControls> {
+        let of = |at_s, azimuth_rad, alternate| ActiveControls {
             at_s,
             controls: Controls::default()
                 .with(Control::Azimuth, azimuth_rad)

@@ -14,7 +14,7 @@ const MOMENTUM: [&str; 3] = ["momentum.body[1]", "momentum.body[2]", "momentum.b
 const DUMPS: &str = "dump.count";
 const DISTANCE: &str = "sun.distance";
 
-/// What a recording says.
+/// Recording of a mission's flight.
 pub struct Mission {
     /// The columns the disturbance is from.
     pub from: &'static str,
@@ -29,7 +29,7 @@ pub struct Mission {
 
 /// Days after the first row.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Held {
+pub struct HoldableDays {
     /// No choice of downlinks keeps X and Z within the thresholds from here on; `None` if one does to the end.
     pub managed_d: Option<f64>,
     /// X or Z leaves them without managed downlinks.
@@ -49,7 +49,7 @@ impl Table {
     fn read(path: &Path) -> Result<Self, String> {
         let file = path.display().to_string();
         let failed = |error: &dyn std::fmt::Display| format!("{file}: {error}: see --mission");
-        let text = files::open_at_most(path, files::MOST_TABLE_BYTES).map_err(|error| failed(&error))?;
+        let text = files::open_at_most(path, files::MAX_TABLE_BYTES).map_err(|error| failed(&error))?;
         let mut reader = csv::Reader::from_reader(text);
         let names: Vec<String> = reader
             .headers()
@@ -157,7 +157,7 @@ impl Mission {
             / (self.length_d() * DAY_S)
     }
 
-    /// That factor over the step that ends with a row.
+    /// Factor of sunlight over the step that ends with a row.
     fn light(&self, row: usize, at_m: f64) -> f64 {
         self.distances_m.as_ref().map_or(1.0, |distances_m| {
             [distances_m[row - 1], distances_m[row]]
@@ -172,7 +172,7 @@ impl Mission {
     ///
     /// Momenta that downlinks can bring about without a dump are a convex set R: from row to row
     /// R' = (R + gained momentum + dt added) within the thresholds. The first day on which it is empty is the answer.
-    pub fn held(&self, added_n_m: &Region, at_m: f64, threshold_n_m_s: [f64; 3]) -> Held {
+    pub fn held(&self, added_n_m: &Region, at_m: f64, threshold_n_m_s: [f64; 3]) -> HoldableDays {
         let limits = HELD.map(|axis| threshold_n_m_s[axis]);
         let day = |row: usize| (self.times_s[row] - self.times_s[0]) / DAY_S;
         let leaves = |axis: usize| {
@@ -195,7 +195,7 @@ impl Mission {
                 managed_d = Some(day(row));
             }
         }
-        Held { managed_d, unmanaged_d: unmanaged.map(day), y_d: leaves(1).map(day) }
+        HoldableDays { managed_d, unmanaged_d: unmanaged.map(day), y_d: leaves(1).map(day) }
     }
 }
 

@@ -25,7 +25,7 @@ pub(crate) mod test_spacecraft;
 pub mod torque;
 pub mod windows;
 
-pub use mission::{Held, Mission};
+pub use mission::{HoldableDays, Mission};
 pub use model::Limit;
 pub use physics::momentum::Convention;
 pub use region::{Point, Region};

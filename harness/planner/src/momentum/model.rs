@@ -20,12 +20,12 @@ use super::{
 /// Deviations of the refit's errors that the margin holds.
 const SIGMAS: f64 = 3.0;
 
-/// What the momentum is kept below.
+/// Limit of the momentum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
     /// Greatest |H|, in N m s.
     pub momentum_n_m_s: f64,
-    /// What |H| is.
+    /// Measure of |H|.
     pub size: MomentumSize,
     /// Share of it that is left.
     pub margin: f64,
@@ -48,7 +48,7 @@ pub(super) struct Model {
     pub dumps: Vec<(usize, Vector3<f64>)>,
     targeting: Option<Targeting>,
     cells: Vec<Cell>,
-    /// What the last flight gained more, by cell.
+    /// Momentum that the last flight gained beyond the model, by cell.
     corrections: Vec<Vector3<f64>>,
     /// Last rows of the programme's steps.
     instants: Vec<usize>,
@@ -58,7 +58,7 @@ pub(super) struct Model {
     departures_n_m: Vec<Vector3<f64>>,
 }
 
-/// Which part of the flight a programme covers.
+/// Part of the flight that a programme covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Part {
     /// Its first and its behind-last step.
@@ -114,7 +114,7 @@ impl Model {
         }
     }
 
-    /// What sunlight as it was recorded did about the target, where windows are not frozen.
+    /// Returns the change of the target by sunlight as it was recorded, where windows are not frozen.
     fn recorded_moves(&self, sunlit: &SunlitSpacecraft) -> Vector3<f64> {
         let Some(targeting) = &self.targeting else { return Vector3::zeros() };
         let rows = self.simulated.rows.iter();
@@ -168,9 +168,9 @@ impl Model {
             };
             let from = match last.take() {
                 Some((at_window, at, value)) if at_window == window && at == index => value,
-                _ => At::of(sunlit, &rows[index], of, by_impulse(&rows[index])),
+                _ => At::new(sunlit, &rows[index], of, by_impulse(&rows[index])),
             };
-            let to = At::of(sunlit, &rows[index + 1], of, by_impulse(&rows[index + 1]));
+            let to = At::new(sunlit, &rows[index + 1], of, by_impulse(&rows[index + 1]));
             cells.push(cell(window, of, [&rows[index], &rows[index + 1]], [&from, &to], share));
             last = Some((window, index + 1, to));
         }
@@ -233,7 +233,7 @@ impl Model {
         all
     }
 
-    /// What |H| may come to at every row: the limit less its margin, in N m s.
+    /// Returns the largest |H| that is allowed at every row: the limit less its margin, in N m s.
     pub(super) fn allowed_n_m_s(&self) -> Vec<f64> {
         let limit = &self.limit;
         let most = limit.momentum_n_m_s * (1.0 - limit.margin);
@@ -270,7 +270,7 @@ impl Model {
         let momentum = self.momentum_n_m_s();
         let rows = momentum.iter().zip(self.allowed_n_m_s()).zip(self.guard_shares());
         let over = rows.map(|((momentum, allowed), share)| {
-            self.limit.size.of(momentum) - allowed + share * guard * limit_n_m_s
+            self.limit.size.size(momentum) - allowed + share * guard * limit_n_m_s
         });
         let of_target =
             self.targeting.as_ref().zip(self.miss()).map(|(targeting, miss)| {
@@ -288,7 +288,7 @@ impl Model {
 
     /// Looks at how far |H| goes between the instants.
     pub(super) fn look_between(&mut self) {
-        let momentum: Vec<f64> = self.momentum_n_m_s().iter().map(|it| self.limit.size.of(it)).collect();
+        let momentum: Vec<f64> = self.momentum_n_m_s().iter().map(|it| self.limit.size.size(it)).collect();
         let allowed = self.allowed_n_m_s();
         let over = |row: usize| momentum[row] - allowed[row];
         let mut from = 0;

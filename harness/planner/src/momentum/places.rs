@@ -14,13 +14,13 @@ const RAYS: usize = 24;
 const HALVINGS: usize = 14;
 /// Rows of a downlink that are looked at: the Earth moves little within one.
 const ROWS: usize = 5;
-/// What is left to the bound, in rad: for angles as they are written, and because the attitude has no derivative at it.
+/// Distance kept from the bound, in rad: for angles as they are written, and because the attitude has no derivative at it.
 const LEFT_RAD: f64 = 1e-3;
 
 /// A side of a polygon: azimuth and elevation, in rad, by these weights come to no more than `most`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaceSide {
-    /// Of azimuth and elevation.
+    /// Weights of azimuth and elevation.
     pub weights: [f64; 2],
     /// In rad.
     pub most: f64,

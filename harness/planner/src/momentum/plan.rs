@@ -27,15 +27,15 @@ use super::{
 };
 
 /// Rounds at most.
-const MOST_ROUNDS: usize = 8;
+const MAX_ROUNDS: usize = 8;
 /// Share of a flight's correction that a model takes where the last one did not bring both nearer by half.
 const DAMPED: f64 = 0.5;
 /// Solutions within a round at most.
-const MOST_STEPS: usize = 24;
+const MAX_STEPS: usize = 24;
 /// By which the range about the present controls narrows where the model fails, and where that ends.
 const NARROWED: f64 = 0.4;
-const LEAST_TRUST: f64 = 2e-3;
-/// What a N m s over the limit costs, against a day with a radian of tilt.
+const MIN_TRUST: f64 = 2e-3;
+/// Cost of a N m s over the limit, against a day with a radian of tilt.
 const PENALTY: f64 = 1e3;
 /// Shares of the range behind a flight, from which little is left to correct.
 const LITTLE: [f64; 3] = [0.05, 0.15, 0.5];
@@ -56,7 +56,7 @@ pub(super) fn give(model: &mut Model, leaders: &[usize], solution: &Solution) {
     }
 }
 
-/// What a solution is judged by: cost, and what the limits are exceeded by.
+/// Merit of a solution: cost, and excess over the limits.
 fn merit(program: &Program, controls: &[f64], excess_n_m_s: f64, goal: Goal) -> f64 {
     match goal {
         Goal::LeastExcess | Goal::Farthest => excess_n_m_s,
@@ -79,7 +79,7 @@ pub(super) fn refine(
     let exceeded = |model: &Model| model.excess_beyond_n_m_s(0.5 * GUARD).0;
     model.look_between();
     let mut merit_now = f64::INFINITY;
-    for step in 0..MOST_STEPS {
+    for step in 0..MAX_STEPS {
         simulates.progress("momentum");
         let program = model.program(leaders, model.whole(), [GUARD, trust]);
         if step == 0 && model.is_of(leaders) {
@@ -114,7 +114,7 @@ pub(super) fn refine(
             }
         } else {
             trust *= NARROWED;
-            if trust < LEAST_TRUST {
+            if trust < MIN_TRUST {
                 break;
             }
         }
@@ -122,7 +122,7 @@ pub(super) fn refine(
     Ok(model.excess_n_m_s().0 <= 0.0)
 }
 
-/// What was counted in an earlier round.
+/// Counts of an earlier round.
 #[derive(Default)]
 struct Structure {
     groups: Groups,
@@ -330,7 +330,7 @@ fn searched(
         let present = flown(task, &model, (baseline.clone(), &found), (flight.clone(), dumps, rounds));
         let off_n_m_s = present.difference_n_m_s();
         let agrees = off_n_m_s <= AGREED * task.limit.momentum_n_m_s;
-        let is_last = (present.holds && agrees) || rounds == MOST_ROUNDS;
+        let is_last = (present.holds && agrees) || rounds == MAX_ROUNDS;
         let best_now = match best.take() {
             Some(best) if best.holds && !is_better(&present, &best, task) => best,
             _ => present,
@@ -385,8 +385,8 @@ fn rows(model: &Model, flight: &SimulatedFlight) -> Vec<PlannedRow> {
         let difference = if is_at_dump(row.time_s) { 0.0 } else { (simulated - planned).norm() };
         PlannedRow {
             time_s: row.time_s,
-            planned_n_m_s: size.of(planned),
-            simulated_n_m_s: size.of(&simulated),
+            planned_n_m_s: size.size(planned),
+            simulated_n_m_s: size.size(&simulated),
             allowed_n_m_s: *allowed,
             difference_n_m_s: difference,
         }

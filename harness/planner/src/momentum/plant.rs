@@ -19,19 +19,19 @@ use super::{
 /// Values of variables at the start of a flight.
 #[derive(Clone, Copy, Debug)]
 pub struct StartValues<'a> {
-    /// Of the plant.
+    /// Description of the plant.
     pub description: &'a Description,
-    /// What is set.
+    /// Values that are set.
     pub sets: &'a [(String, Value)],
 }
 
 impl<'a> StartValues<'a> {
-    /// Of a Real; not a number where there is none.
+    /// Value of a Real; not a number where there is none.
     pub fn real(&self, name: &str) -> f64 {
         start_values::start(self.description, self.sets, name).map_or(f64::NAN, |value| value.to_f64())
     }
 
-    /// Of a Real, or `other` where there is none.
+    /// Value of a Real, or `other` where there is none.
     fn real_or(&self, name: &str, other: f64) -> f64 {
         start_values::start(self.description, self.sets, name).map_or(other, |value| value.to_f64())
     }
@@ -46,7 +46,7 @@ impl<'a> StartValues<'a> {
         start_values::start(self.description, self.sets, name) == Some(Value::Boolean(true))
     }
 
-    /// Of a vector.
+    /// Value of a vector.
     pub fn vector(&self, name: &str) -> Vector3<f64> {
         Vector3::from([1, 2, 3].map(|axis| self.real(&format!("{name}[{axis}]"))))
     }
@@ -122,7 +122,7 @@ pub fn sunlit(
     Ok(sunlit)
 }
 
-/// What a flight is read from, beside the angle of every panel ([`panel`]); the momentum is the last.
+/// Variables that a flight is read from, beside the angle of every panel ([`panel`]); the momentum is the last.
 pub fn recorded(convention: Convention) -> [&'static str; 10] {
     let momentum = match convention {
         Convention::Inertial => "momentum.inertial",
@@ -142,7 +142,7 @@ pub fn recorded(convention: Convention) -> [&'static str; 10] {
     ]
 }
 
-/// What is recorded beside it where the motion counts: of a flight to an encounter.
+/// Variables recorded beside these where the motion counts: of a flight to an encounter.
 pub const RECORDED_MOTION: [&str; 7] = [
     "velocity",
     "sun.velocityInertial",

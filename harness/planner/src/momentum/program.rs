@@ -27,7 +27,7 @@ pub(super) const WHOLE: f64 = 1.0;
 /// How a step's momentum begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Begin {
-    /// Where the step before ended.
+    /// End of the step before.
     Follows,
     /// At this momentum, in N m s.
     At(Vector3<f64>),
@@ -72,7 +72,7 @@ impl TargetRow {
 /// A programme.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Program {
-    /// What |h| is.
+    /// Measure of |h|.
     pub size: MomentumSize,
     /// Least and greatest value of each control.
     pub bounds: Vec<[f64; 2]>,
@@ -90,7 +90,7 @@ pub(super) struct Program {
     pub gains: Vec<(usize, f64)>,
 }
 
-/// What is sought.
+/// Goal of a programme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Goal {
     /// The least excess.
@@ -104,7 +104,7 @@ pub(super) enum Goal {
 /// A solution.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Solution {
-    /// Of every control.
+    /// Value of every control.
     pub controls: Vec<f64>,
     /// Momentum at the end of every step, in N m s.
     pub momentum: Vec<Vector3<f64>>,
@@ -160,7 +160,7 @@ impl Rows {
 }
 
 impl Program {
-    /// What controls cost.
+    /// Returns the cost of controls.
     pub(super) fn cost(&self, controls: &[f64]) -> f64 {
         let lengths = self.lengths.iter().map(|([a, b], weight)| weight * controls[*a].hypot(controls[*b]));
         let magnitudes = self.magnitudes.iter().map(|(index, weight)| weight * controls[*index].abs());
@@ -298,7 +298,7 @@ impl Program {
         };
         let momentum = vectors(momentum_at, self.steps.len());
         let over =
-            momentum.iter().zip(&self.steps).map(|(momentum, step)| self.size.of(momentum) - step.limit);
+            momentum.iter().zip(&self.steps).map(|(momentum, step)| self.size.size(momentum) - step.limit);
         let controls: Vec<f64> =
             self.bounds.iter().zip(&moved).map(|(bounds, moved)| moved.value(*bounds, &found)).collect();
         let missed = self.targets.iter().map(|target| target.excess(&controls));

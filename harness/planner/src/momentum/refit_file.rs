@@ -1,4 +1,4 @@
-//! What a plan reads of a refit: centre of mass, scale of sunlight and their covariance, from its JSON.
+//! Refit as a plan reads it: centre of mass, scale of sunlight and their covariance, from its JSON.
 
 use serde::Deserialize;
 
@@ -15,7 +15,7 @@ pub struct RefitValues {
     pub center_of_mass_m: [f64; 3],
     /// Factor of force and torque of direct sunlight.
     pub scale: f64,
-    /// Of both, row by row.
+    /// Covariance of both, row by row.
     pub covariance: [[f64; 4]; 4],
     /// Whether the fit's residuals are no more than its noise, where the file says so.
     trusted: Option<bool>,

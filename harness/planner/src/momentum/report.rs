@@ -1,4 +1,4 @@
-//! What a plan came to, as `plan.json` and `windows.csv`.
+//! Results of a plan, as `plan.json` and `windows.csv`.
 
 use physics::constants::DAY_S;
 use serde_json::{Map, Value, json};
@@ -22,10 +22,10 @@ pub struct PlanEvent {
     pub planned: bool,
 }
 
-/// What removing a planned command, or adding an activity, changes.
+/// Change by removing a planned command or adding an activity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Price {
-    /// What it is.
+    /// Name of the command or activity.
     pub name: String,
     /// Removed from the plan, or added to it.
     pub removed: bool,
@@ -58,7 +58,7 @@ fn scopes() -> Value {
     })
 }
 
-/// What limits a plan, as JSON: what binds, when, by how much it is exceeded.
+/// Binding limits of a plan, as JSON: which, when, by how much it is exceeded.
 fn binding(plan: &MomentumPlan) -> Value {
     let start_s = plan.rows.first().map_or(0.0, |row| row.time_s);
     if let Some(exceeded) = &plan.exceeded {
@@ -86,7 +86,7 @@ pub(crate) fn by_percent([half, most, nearly_all]: [f64; 3]) -> Value {
     json!({ "50": half, "90": most, "99": nearly_all })
 }
 
-/// Those of the greatest |H| (N m s) and of the dumps of flights.
+/// Percentiles of the greatest |H| (N m s) and of the dumps of flights.
 pub fn of_seeds(flights: &[(f64, u32)]) -> [[f64; 3]; 2] {
     let momentum = flights.iter().map(|(momentum, _)| *momentum).collect();
     [percentiles(momentum), percentiles(flights.iter().map(|(_, dumps)| f64::from(*dumps)).collect())]

@@ -5,7 +5,7 @@ use physics::environment::CartesianState;
 
 use super::encountered::Encountered;
 
-/// What is meant by the size of a momentum.
+/// Measure of the size of a momentum.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MomentumSize {
     /// Its length |H|.
@@ -16,8 +16,8 @@ pub enum MomentumSize {
 }
 
 impl MomentumSize {
-    /// Of this momentum, in its unit.
-    pub fn of(self, momentum: &Vector3<f64>) -> f64 {
+    /// Returns the size of this momentum, in its unit.
+    pub fn size(self, momentum: &Vector3<f64>) -> f64 {
         match self {
             Self::Length => momentum.norm(),
             Self::LargestComponent => momentum.amax(),
@@ -71,7 +71,7 @@ fn hermite(from: &CartesianState, to: &CartesianState, share: f64, span_s: f64) 
     }
 }
 
-/// What is known at one time.
+/// Geometry, torques and momentum at one time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FlightRow {
     /// In s of the flight.
@@ -183,7 +183,7 @@ impl SimulatedFlight {
         Self { rows, ..self.without_rows() }
     }
 
-    /// What is known at a time within the flight, interpolated.
+    /// Interpolates the row at a time within the flight.
     pub fn at(&self, time_s: f64) -> Option<FlightRow> {
         let with = self.with_rows_at(&[time_s]);
         with.rows.into_iter().find(|row| (row.time_s - time_s).abs() <= SAME_S)
@@ -226,7 +226,7 @@ impl SimulatedFlight {
     /// Greatest size of the momentum, in N m s, and when.
     pub fn greatest(&self, size: MomentumSize) -> (f64, f64) {
         self.rows.iter().fold((0.0, f64::NAN), |(greatest, at_s), row| {
-            let momentum = size.of(&row.momentum_n_m_s);
+            let momentum = size.size(&row.momentum_n_m_s);
             if momentum > greatest { (momentum, row.time_s) } else { (greatest, at_s) }
         })
     }

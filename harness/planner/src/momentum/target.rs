@@ -69,26 +69,26 @@ pub(super) struct LinearMiss {
     pub terms: Vec<(usize, Vector3<f64>)>,
 }
 
-/// What the windows of a flight do about its target.
+/// Effect of the windows of a flight on its target.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Targeting {
     /// The target.
     pub target: Target,
     /// The last flight.
     pub encountered: Encountered,
-    /// What the model's cells gave with that flight's controls.
+    /// Sum of the model's cells with that flight's controls.
     pub simulated: Vector3<f64>,
 }
 
 impl Targeting {
-    /// What the encounter moves by, by force times time at a row.
+    /// Partials of the encounter by force times time at a row.
     pub(super) fn by_impulse(&self, sunlit: &SunlitSpacecraft, row: &FlightRow) -> Matrix3<f64> {
         let mass_kg = row.motion.map_or(sunlit.current_mass_panels_stowed.mass_kg, |motion| motion.mass_kg);
         self.encountered.by_velocity_at(row.time_s) / mass_kg
     }
 }
 
-/// What sunlight moves the encounter by over a time: B.T (m), B.R (m), arrival (s).
+/// Change of the encounter by sunlight over a time: B.T (m), B.R (m), arrival (s).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Moves {
     /// At the present controls.

@@ -28,7 +28,7 @@ const STEP_RAD: f64 = 1e-4;
 /// Number of controls of a window.
 pub const CONTROLS: usize = 7;
 
-/// What a plan chooses in a window, in this order.
+/// Controls that a plan chooses in a window, in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Control {
     /// Offset of the arrays from the Sun, in rad.
@@ -84,7 +84,7 @@ impl Controls {
     }
 }
 
-/// Which attitude a window has.
+/// Attitude of a window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Attitude {
     /// As it was simulated.
@@ -110,14 +110,14 @@ pub struct SunlitSpacecraft {
     pub panel_biases_rad: Vec<f64>,
     /// The light on its cells that each panel is turned for as the distance from the Sun changes, in suns, where it is.
     pub followed_suns: Vec<Option<f64>>,
-    /// What torques are given in: EME2000, or, where the body components are integrated, the body frame.
+    /// Frame of the torques: EME2000, or, where the body components are integrated, the body frame.
     pub convention: Convention,
     solar: SolarModel,
     antennas: Antennas,
 }
 
 impl SunlitSpacecraft {
-    /// Of a spacecraft with its panels tilted as its file says.
+    /// Model of a spacecraft with its panels tilted as its file says.
     ///
     /// # Errors
     /// A sunshade that is not there in this form.
@@ -145,7 +145,7 @@ impl SunlitSpacecraft {
         self.solar.set_material(place, material);
     }
 
-    /// Which way a windmill angle turns each panel that takes part.
+    /// Sense in which a windmill angle turns each panel that takes part.
     pub fn windmill_sides(&self) -> impl Iterator<Item = f64> + '_ {
         let panels = self.spacecraft.panels.iter().zip(&self.panels);
         panels.filter(|(_, (enabled, _))| *enabled).map(|(panel, _)| panel.windmill_side)
@@ -239,7 +239,7 @@ impl SunlitSpacecraft {
         }
     }
 
-    /// What panels that follow the distance from the Sun change of the force by it, at the same pressure, EME2000, in N/m.
+    /// Change of the force with the distance from the Sun by panels that follow it, at the same pressure, EME2000, in N/m.
     pub fn force_by_distance_n_m(&self, row: &FlightRow) -> Vector3<f64> {
         if self.followed_suns.iter().all(Option::is_none) {
             return Vector3::zeros();
@@ -283,7 +283,7 @@ impl SunlitSpacecraft {
         self.load(row, &self.inertial_from_body(row, attitude, controls), &self.settings(controls))
     }
 
-    /// That attitude; the simulated one where the downlink has none.
+    /// Returns the matrix of the attitude; the simulated one where the downlink has none.
     pub(super) fn inertial_from_body(
         &self,
         row: &FlightRow,
@@ -296,7 +296,7 @@ impl SunlitSpacecraft {
         downlink.unwrap_or(row.inertial_from_body)
     }
 
-    /// That torque, the force with it, and their derivatives by the angles.
+    /// Returns the torque, the force with it, and their derivatives by the angles.
     pub fn linearised(&self, row: &FlightRow, attitude: Attitude, controls: &Controls) -> LinearTorque {
         let by = |control: Control| {
             let value = controls.get(control);
@@ -355,7 +355,7 @@ pub struct LinearLoad {
     pub by_angle: [Vector3<f64>; 4],
     /// Force with it, EME2000, in N.
     pub force_n: Vector3<f64>,
-    /// That by the same angles, in N/rad.
+    /// Derivatives of the force by the same angles, in N/rad.
     pub force_by_angle: [Vector3<f64>; 4],
     /// Torque by the centre of mass, body frame, in N.
     pub by_center: Matrix3<f64>,

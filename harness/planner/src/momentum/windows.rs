@@ -5,13 +5,13 @@ use physics::spacecraft::Articulation;
 
 use super::{
     baseline::{NoOffset, OffsetStep, baseline, shared_rad},
-    in_force::{InForce, mean},
+    in_force::{ActiveControls, mean},
     places::{PlaceSide, places},
     simulated::{FlightRow, SAME_S, SimulatedFlight},
     torque::{ALL, Attitude, CONTROLS, Control, Controls, LinearTorque, SunlitSpacecraft},
 };
 
-/// What a window is.
+/// Kind of a window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WindowKind {
     /// As the mission has it, arrays included.
@@ -43,7 +43,7 @@ pub struct Window {
     pub start_s: f64,
     /// In s of the flight.
     pub stop_s: f64,
-    /// What it is.
+    /// Kind.
     pub kind: WindowKind,
     /// Row of the mission's command, from 0.
     pub command: Option<usize>,
@@ -57,7 +57,7 @@ pub struct Window {
     pub offsets_rad: [f64; 2],
     /// Offset of the baseline, with its sign, in rad.
     pub baseline_rad: f64,
-    /// Which ways a windmill angle turns panels.
+    /// Senses in which a windmill angle turns panels.
     pub sides: Vec<f64>,
     /// Present controls.
     pub controls: Controls,
@@ -187,7 +187,7 @@ pub struct ControlBounds {
 
 /// A command of the mission's timeline that the plan does not change.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Occupied {
+pub struct BusySpan {
     /// In s of the flight.
     pub start_s: f64,
     /// In s of the flight.
@@ -198,7 +198,7 @@ pub struct Occupied {
     pub command: usize,
 }
 
-/// What windows are made of.
+/// Layout of windows: kinds, spans, bounds of the controls.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
     /// Until when the mission stays as it is, in s.
@@ -208,7 +208,7 @@ pub struct Layout {
     /// Length of a window, in s.
     pub window_s: f64,
     /// Commands that stay, in order.
-    pub occupied: Vec<Occupied>,
+    pub occupied: Vec<BusySpan>,
     /// Downlinks of an orbit phase, in order: they alone are free, everything else stays as it is; `None`: all time is.
     pub downlinks_s: Option<Vec<[f64; 2]>>,
     /// Ground contacts, in order; none overlap.
@@ -218,21 +218,21 @@ pub struct Layout {
     /// Bounds of the controls.
     pub control_bounds: ControlBounds,
     /// The plan that the mission has so far, in order: windows begin with its controls, those before it on the baseline without tilt.
-    pub in_force: Vec<InForce>,
+    pub in_force: Vec<ActiveControls>,
     /// Controls of the mission itself, in order; empty where its arrays are no offset and windmill angle.
-    pub own: Vec<InForce>,
+    pub own: Vec<ActiveControls>,
     /// Corridor of the light on the cells.
     pub corridor: Articulation,
     /// Sign of the offsets.
     pub offset_sign: f64,
     /// Offset at the start of the mission as it is, in rad, which is reported of the frozen time.
     pub frozen_offset_rad: f64,
-    /// Which ways a windmill angle turns the panels.
+    /// Senses in which a windmill angle turns the panels.
     pub sides: Vec<f64>,
 }
 
 impl Layout {
-    /// Of an orbit phase: downlinks are free as far as `control_bounds` lets the Sun off -Y, everything else stays, the arrays so far off the Sun.
+    /// Layout of an orbit phase: downlinks are free as far as `control_bounds` lets the Sun off -Y, everything else stays, the arrays at this offset from the Sun.
     pub fn of_downlinks(
         downlinks_s: Vec<[f64; 2]>,
         control_bounds: ControlBounds,

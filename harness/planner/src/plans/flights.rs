@@ -46,7 +46,7 @@ const ORBIT_STEP_S: f64 = 600.0;
 const NEAR_M: f64 = 1e8;
 /// A mission's momentum is the physical one.
 const CONVENTION: Convention = Convention::Inertial;
-/// What of a mission is simulated and recorded.
+/// Extent of a mission that is simulated and recorded.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Requested<'a> {
     /// Values that win over the mission's.
@@ -57,7 +57,7 @@ pub(super) struct Requested<'a> {
     pub step_s: Option<f64>,
     /// Rows at these times alone, in s, which grow from the start on; otherwise at communication points.
     pub at_s: Option<&'a [f64]>,
-    /// Where it ends, in s, instead of the mission's stop.
+    /// End, in s, instead of the mission's stop.
     pub stop_s: Option<f64>,
 }
 
@@ -88,7 +88,7 @@ impl SimulatedMission {
             set: set.to_vec(),
             ..Run::default()
         };
-        let simulated = Simulated::of(&run)?;
+        let simulated = Simulated::new(&run)?;
         let Some(mission) = simulated.mission.clone() else {
             return Err(format!("{}: found no mission, allowed: one (.toml)", file.display()).into());
         };
@@ -179,7 +179,7 @@ impl SimulatedMission {
         Ok(time_s)
     }
 
-    /// What turns the clock of a timeline into times of the flight, in s to be subtracted.
+    /// Difference between the clock of a timeline and the time of the flight, in s.
     pub(super) fn clock_minus_time_s(&self, timeline: &Timeline) -> f64 {
         timeline.clock_minus_time_s(self.zero_s())
     }

@@ -15,9 +15,9 @@ const WHOLE_DEG: f64 = 186.0;
 /// curve goes through the rim.
 const FAR_DEG: f64 = 8.0;
 const THROUGH_RAD: f64 = 1e-3;
-/// The close view is so many times the turn's angle wide, and at least so many deg.
+/// Width of the close view in angles of the turn, and at least, in deg.
 const CLOSE: f64 = 0.75;
-const LEAST_CLOSE_DEG: f64 = 0.05;
+const MIN_CLOSE_DEG: f64 = 0.05;
 
 /// The picture as SVG text.
 ///
@@ -79,7 +79,7 @@ impl Map {
         self.between(curve, &middle, to);
     }
 
-    /// Where a direction near the rim meets it.
+    /// Point at which a direction near the rim meets it.
     fn on_rim(&self, direction: &Vector3<f64>) -> (f64, f64) {
         let (x, y) = (self.east.dot(direction), self.north.dot(direction));
         let scale = 180.0 / x.hypot(y).max(f64::MIN_POSITIVE);
@@ -158,7 +158,7 @@ fn sphere(burn: &PlannedBurn) -> PlaneChart {
         ),
         Series::rings("", bodies),
     ];
-    let close_deg = (CLOSE * angle_rad.to_degrees()).max(LEAST_CLOSE_DEG);
+    let close_deg = (CLOSE * angle_rad.to_degrees()).max(MIN_CLOSE_DEG);
     let panel = |title: &str, half_width: f64, named: Vec<(&str, Vector3<f64>)>| {
         let named = named.into_iter().map(|(name, direction)| (map.place(&direction), name.to_owned()));
         PlanePanel {

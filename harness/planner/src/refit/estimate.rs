@@ -17,11 +17,11 @@ use super::{
 };
 
 /// Steps at most; each squares the error, or divides it by twenty along a valley that bends.
-const MOST_STEPS: u32 = 50;
+const MAX_STEPS: u32 = 50;
 /// Parts of its deviation that a direction may still move by.
 const CONVERGED: f64 = 1e-3;
 
-/// What rows and priors say.
+/// Rows of the history and priors.
 pub(super) struct Problem<'a> {
     pub telemetry: &'a Telemetry,
     pub arcs: &'a [Range<usize>],
@@ -29,7 +29,7 @@ pub(super) struct Problem<'a> {
     pub deviations: &'a Deviations,
 }
 
-/// Where the sum is least.
+/// Minimum of the sum of squares.
 pub(super) struct Estimate {
     pub parameters: Parameters,
     pub directions: [Direction; 4],
@@ -44,8 +44,8 @@ impl Problem<'_> {
         let deviations = self.deviations.of_parameters();
         let prior = self.prior.values();
         let mut y = (start.values() - prior).component_div(&deviations);
-        for _ in 0..MOST_STEPS {
-            let parameters = Parameters::of(&(prior + y.component_mul(&deviations)));
+        for _ in 0..MAX_STEPS {
+            let parameters = Parameters::new(&(prior + y.component_mul(&deviations)));
             let (information, gradient) = self.normal(expansion, &parameters);
             let directions = principal(&information);
             let right = information * y + gradient;
@@ -56,13 +56,13 @@ impl Problem<'_> {
             let step = next - y;
             y = next;
             if directions.iter().all(|it| it.vector.dot(&step).abs() <= CONVERGED * it.sigma) {
-                let parameters = Parameters::of(&(prior + y.component_mul(&deviations)));
+                let parameters = Parameters::new(&(prior + y.component_mul(&deviations)));
                 let directions = principal(&self.normal(expansion, &parameters).0);
                 return Ok(Estimate { parameters, directions });
             }
         }
         Err(format!(
-            "the fit did not converge in {MOST_STEPS} steps, allowed: a history that the mission's flight is near to: see \
+            "the fit did not converge in {MAX_STEPS} steps, allowed: a history that the mission's flight is near to: see \
              --prior-center and --prior-scale"
         ))
     }

@@ -11,22 +11,22 @@ use super::{
     expansion::{Expansion, FLIGHTS},
     flights::Flights,
     parameters::{Deviations, FITTED, Parameters},
-    telemetry::{LEAST_ROWS, Telemetry, arcs},
+    telemetry::{MIN_ROWS, Telemetry, arcs},
 };
 use crate::Failure;
 
 /// Expansions at most.
-const MOST_ROUNDS: u64 = 5;
+const MAX_ROUNDS: u64 = 5;
 /// Part of the noise by which a flight may depart from the expansion that it is fitted by.
 const AGREES: f64 = 0.05;
 /// Standard deviations of chi square above its mean beyond which the noise or the flight is not what it was said to be.
 const FAR: f64 = 5.0;
 /// Deviations of its prior that an estimate may be off.
-const MOST_PRIOR_DEVIATIONS: f64 = 6.0;
+const MAX_PRIOR_DEVIATIONS: f64 = 6.0;
 /// Flights of one round: an expansion, and one with its result.
 const FLIGHTS_OF_ROUND: u64 = FLIGHTS + 1;
 
-/// What is fitted to what.
+/// History and priors of a fit.
 pub struct Requested<'a> {
     /// The history.
     pub telemetry: &'a Telemetry,
@@ -41,7 +41,7 @@ pub struct Requested<'a> {
 pub struct Fitted {
     /// The values that fit best.
     pub parameters: Parameters,
-    /// Of centre of mass X, Y, Z (m), and `solar.scale`.
+    /// Covariance of centre of mass X, Y, Z (m), and `solar.scale`.
     pub covariance: Matrix4<f64>,
     /// The best determined first.
     pub directions: [Direction; 4],
@@ -79,10 +79,10 @@ pub fn fit(
         };
         let expansion = Expansion::about(flights, &center, &telemetry.times_s, &mut counted)?;
         let arcs = arcs(&[&telemetry.dumps, &expansion.dumps]);
-        if telemetry.times_s.len() < arcs.len() + LEAST_ROWS {
+        if telemetry.times_s.len() < arcs.len() + MIN_ROWS {
             return Err(format!(
                 "found {} rows in {} arcs between dumps, those of the mission's timeline and inputs among them, allowed: at \
-                 least {LEAST_ROWS} rows more than arcs",
+                 least {MIN_ROWS} rows more than arcs",
                 telemetry.times_s.len(),
                 arcs.len()
             )
@@ -114,7 +114,7 @@ pub fn fit(
                 flights: count,
             });
         }
-        if round == MOST_ROUNDS {
+        if round == MAX_ROUNDS {
             return Err(format!(
                 "after {count} flights one departs by {} N m s from what it was expanded to, allowed: {} of --noise, {}",
                 terminal::short(departure_n_m_s),
@@ -132,11 +132,11 @@ fn check_prior(found: &Parameters, requested: &Requested<'_>) -> Result<(), Stri
     let (prior, deviations) = (requested.prior.values(), requested.deviations.of_parameters());
     let off = (found.values() - prior).component_div(&deviations);
     let at = off.icamax();
-    if off[at].abs() <= MOST_PRIOR_DEVIATIONS {
+    if off[at].abs() <= MAX_PRIOR_DEVIATIONS {
         return Ok(());
     }
     Err(format!(
-        "{}: the fit found {}, {} deviations of its prior off the mission's {}, allowed: {MOST_PRIOR_DEVIATIONS}: a history of this \
+        "{}: the fit found {}, {} deviations of its prior off the mission's {}, allowed: {MAX_PRIOR_DEVIATIONS}: a history of this \
          mission's flight with every dump in dump.count, or a wider --prior-center, --prior-scale",
         FITTED[at],
         terminal::short(found.values()[at]),
@@ -150,7 +150,7 @@ pub fn is_trusted(chi_square: f64, degrees_of_freedom: f64) -> bool {
     chi_square - degrees_of_freedom <= FAR * (2.0 * degrees_of_freedom).sqrt()
 }
 
-/// Of the parameters in their own units.
+/// Covariance of the parameters in their own units.
 fn covariance(directions: &[Direction; 4], deviations: &Deviations) -> Matrix4<f64> {
     let scales = Matrix4::from_diagonal(&deviations.of_parameters());
     let scaled: Matrix4<f64> =

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::parameters::Parameters;
 use crate::Failure;
 
-/// What a flight gives at the requested times.
+/// Momentum of a flight at the requested times.
 #[derive(Clone, Debug, PartialEq)]
 pub struct History {
     /// EME2000, in N m s.

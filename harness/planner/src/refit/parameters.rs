@@ -1,4 +1,4 @@
-//! What is fitted: centre of mass and `solar.scale`, and their standard deviations before the history is known.
+//! Fitted parameters: centre of mass and `solar.scale`, and their standard deviations before the history is known.
 
 use nalgebra::{Vector3, Vector4};
 
@@ -17,7 +17,7 @@ pub struct Parameters {
 
 impl Parameters {
     /// In the order of [`FITTED`].
-    pub(super) fn of(values: &Vector4<f64>) -> Self {
+    pub(super) fn new(values: &Vector4<f64>) -> Self {
         Self { center_of_mass_body_m: values.xyz(), solar_scale: values.w }
     }
 
@@ -30,16 +30,16 @@ impl Parameters {
 /// Standard deviations: of momentum's noise, and of what is fitted about the mission's values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviations {
-    /// Of each component of each row, white, in N m s.
+    /// Standard deviation of each component of each row, white, in N m s.
     pub noise_n_m_s: f64,
-    /// Of each component of the centre of mass, in m.
+    /// Standard deviation of each component of the centre of mass, in m.
     pub center_of_mass_m: f64,
-    /// Of `solar.scale`.
+    /// Standard deviation of `solar.scale`.
     pub solar_scale: f64,
 }
 
 impl Deviations {
-    /// Of the parameters, in the order of [`FITTED`].
+    /// Standard deviations of the parameters, in the order of [`FITTED`].
     pub(super) fn of_parameters(&self) -> Vector4<f64> {
         Vector3::repeat(self.center_of_mass_m).push(self.solar_scale)
     }

@@ -35,7 +35,7 @@ struct Columns {
 }
 
 impl Columns {
-    fn of(names: Vec<String>) -> Result<Self, String> {
+    fn new(names: Vec<String>) -> Result<Self, String> {
         let is_read = |name: &str| name == TIME || name == DUMPS || MOMENTUM.contains(&name);
         let mut read = names.iter().enumerate().filter(|(_, name)| is_read(name));
         if let Some((_, twice)) = read.find(|(at, name)| names[..*at].contains(name)) {
@@ -57,7 +57,7 @@ impl Telemetry {
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let file = path.display().to_string();
         let failed = |error: &dyn std::fmt::Display| format!("{file}: {error}: see --telemetry");
-        let opened = files::open_at_most(path, files::MOST_TABLE_BYTES).map_err(|error| failed(&error))?;
+        let opened = files::open_at_most(path, files::MAX_TABLE_BYTES).map_err(|error| failed(&error))?;
         // A row with fewer cells than the header is a gap, reported with its column.
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))
@@ -66,7 +66,7 @@ impl Telemetry {
             .from_reader(opened);
         let header = reader.headers().map_err(|error| failed(&error))?;
         let line = header.position().map_or(1, csv::Position::line);
-        let columns = Columns::of(header.iter().map(str::to_owned).collect())
+        let columns = Columns::new(header.iter().map(str::to_owned).collect())
             .map_err(|what| format!("{file}:{line}: {what}"))?;
         let mut telemetry = Self::default();
         for record in reader.records() {
@@ -133,18 +133,18 @@ impl Telemetry {
     fn check_count(&self, file: &str) -> Result<(), String> {
         let arcs = arcs(&[&self.dumps]);
         let (rows, count) = (self.times_s.len(), arcs.len());
-        if rows >= count + LEAST_ROWS {
+        if rows >= count + MIN_ROWS {
             return Ok(());
         }
         let of_arcs = if count == 1 { "1 arc".to_owned() } else { format!("{count} arcs") };
         Err(format!(
-            "{file}: found {rows} rows in {of_arcs} between dumps, allowed: at least {LEAST_ROWS} rows more than arcs"
+            "{file}: found {rows} rows in {of_arcs} between dumps, allowed: at least {MIN_ROWS} rows more than arcs"
         ))
     }
 }
 
 /// Rows that a history has beyond one for each arc, at least.
-pub(super) const LEAST_ROWS: usize = 2;
+pub(super) const MIN_ROWS: usize = 2;
 
 /// Rows of each arc; one ends where any of the counts rises.
 pub(super) fn arcs(counts: &[&Vec<i32>]) -> Vec<std::ops::Range<usize>> {

@@ -10,7 +10,7 @@ use super::{
     table::{Found, time, triple},
 };
 
-/// What counts unless someone says otherwise: the variable, the key that sets it, and another that stands for it.
+/// Values that count unless they are set: the variable, the key that sets it, and another that stands for it.
 const UNSAID: [(&str, &str, &str); 4] = [
     ("start.epoch", "start.epoch", "start.epoch"),
     ("orbit.center", "orbit.center", "orbit.center"),
@@ -63,7 +63,7 @@ pub(super) fn text(sized: &SizedSpacecraft, found: &Found) -> String {
     line
 }
 
-/// What the file and the call do not say, with the key that sets it.
+/// Table of the values that neither file nor call sets, with the key that sets each.
 pub(super) fn assumed(sized: &SizedSpacecraft, found: &Found) -> String {
     let spacecraft = &sized.spacecraft;
     let mut table = terminal::table(&["assumed", "value", "set by"]);

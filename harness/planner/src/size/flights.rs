@@ -18,12 +18,12 @@ use crate::Failure;
 /// Communication points of an orbit at least, and the longest step, in s.
 const POINTS_OF_ORBIT: f64 = 48.0;
 const LONGEST_STEP_S: f64 = 120.0;
-/// Step of a flight of which only dumps count, in s; one in which several fall is cut between them.
+/// Step of a flight whose dumps alone count, in s; one in which several fall is cut between them.
 const STEP_OF_DUMPS_S: f64 = 21_600.0;
 /// Rows that are kept of a flight at most.
 const ROWS: f64 = 300_000.0;
 /// Thresholds that are simulated whatever the time.
-const LEAST_THRESHOLDS: usize = 3;
+const MIN_THRESHOLDS: usize = 3;
 /// Thresholds that are simulated, as shares of the file's: its own first, then outward.
 const SCALES: [f64; 9] = [1.0, 2.0, 0.5, 1.41, 0.71, 4.0, 0.35, 2.83, 0.25];
 
@@ -39,7 +39,7 @@ pub(super) struct Dumped {
     pub propellant_kg: f64,
 }
 
-/// What was simulated, and what the time did not suffice for.
+/// Flights that were simulated, and the number that the time did not suffice for.
 pub(super) struct Sweep {
     pub dumped: Vec<Dumped>,
     pub left_out: usize,
@@ -81,7 +81,7 @@ pub(super) fn sweep(
     let bar = terminal::progress(cases.len() as u64, "flights", is_quiet);
     let mut sweep = Sweep { dumped: Vec::new(), left_out: 0 };
     for (index, (scale, strategy)) in cases.into_iter().enumerate() {
-        if index >= LEAST_THRESHOLDS * sized.strategies.len() && Instant::now() >= until {
+        if index >= MIN_THRESHOLDS * sized.strategies.len() && Instant::now() >= until {
             sweep.left_out += 1;
             continue;
         }

@@ -51,7 +51,7 @@ pub fn run(arguments: &Size) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
-/// What flights give.
+/// Simulates the flights and returns their results.
 fn found(sized: &SizedSpacecraft, arguments: &Size) -> Result<Found, Failure> {
     let slews = needs::slews(sized)?;
     let mut flights = Vec::new();
@@ -63,7 +63,7 @@ fn found(sized: &SizedSpacecraft, arguments: &Size) -> Result<Found, Failure> {
     }
     let dumping = needs::dumping(sized);
     let demands = Demands::new(sized, &slews, arguments.margin)?;
-    let every = |every_s: f64| Unloadings::of(&demands, &flights, every_s, dumping.as_ref().ok());
+    let every = |every_s: f64| Unloadings::new(&demands, &flights, every_s, dumping.as_ref().ok());
     let others = [sized.period_s, 7.0 * DAY_S].into_iter().filter(|it| *it != sized.every_s);
     let others = others.filter_map(every).collect();
     let unloadings =

@@ -40,7 +40,7 @@ pub(super) struct Histories {
     most: [Vector3<f64>; 2],
 }
 
-/// What a search over windows goes by.
+/// Quantity of a search over windows.
 enum Search {
     /// The largest magnitudes so far, in windows of a length.
     Largest(Vector3<f64>),
@@ -119,7 +119,7 @@ impl Histories {
         span_s.is_finite().then_some(span_s)
     }
 
-    /// What one window of this length after another gathers, body frame at its end, and the time of all; `None` where the flight
+    /// Momentum gathered in one window of this length after another, body frame at its end, and the time of all; `None` where the flight
     /// has none.
     pub(super) fn unloaded_n_m_s(&self, span_s: f64) -> Option<(Vec<Vector3<f64>>, f64)> {
         let body = self.body().filter(|_| self.span_s() >= span_s * (1.0 - 1e-9))?;

@@ -1,4 +1,4 @@
-//! What slews, wheels and thrusters the mission needs or has, by axis.
+//! Slews, wheels and thrusters that the mission needs or has, by axis.
 
 use inputs::variables::{NEVER_N_M_S, item};
 use nalgebra::Vector3;
@@ -25,12 +25,12 @@ pub(super) struct Slew {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Geometry {
     pub name: String,
-    /// Of each wheel, in N m s and N m.
+    /// Capacity and torque of each wheel, in N m s and N m.
     pub capacity_n_m_s: f64,
     pub torque_n_m: f64,
 }
 
-/// What wheels have to take about each body axis, and which wheels do.
+/// Demands on wheels about each body axis, and wheels that meet them.
 pub(super) struct Wheels {
     /// Time between unloadings, in s.
     pub every_s: f64,
@@ -51,7 +51,7 @@ pub(super) struct Allocation {
     pub shares: Vec<(String, f64)>,
     /// Angular impulse over impulse.
     pub lever_m: f64,
-    /// Of the shortest pulse in which any of them fires, in N m s.
+    /// Impulse of the shortest pulse in which any of them fires, in N m s.
     pub least_impulse_n_m_s: f64,
     pub propellant_g_per_n_m_s: f64,
 }
@@ -71,7 +71,7 @@ pub(super) fn slews(sized: &SizedSpacecraft) -> Result<Option<[Slew; 3]>, fmi::E
     })))
 }
 
-/// What sizes wheels beside the time between unloadings.
+/// Demands on wheels beside the time between unloadings.
 pub(super) struct Demands<'a> {
     pub sized: &'a SizedSpacecraft,
     pub slews: &'a Option<[Slew; 3]>,
@@ -81,7 +81,7 @@ pub(super) struct Demands<'a> {
 }
 
 impl<'a> Demands<'a> {
-    /// Of a spacecraft with these slews.
+    /// Demands of a spacecraft with these slews.
     pub(super) fn new(
         sized: &'a SizedSpacecraft,
         slews: &'a Option<[Slew; 3]>,

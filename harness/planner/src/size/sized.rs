@@ -1,4 +1,4 @@
-//! What is sized: the FMU of a file, its spacecraft, and the values that it is simulated with.
+//! Spacecraft that is sized: the FMU of a file, its spacecraft, and the values that it is simulated with.
 
 use campaign::run::{Run, Settings, Simulated};
 use files::Scratch;
@@ -25,13 +25,13 @@ use crate::Failure;
 
 /// The model that is simulated.
 const MODEL: &str = "MomentumPlant";
-/// What guided flight does.
+/// Variable of the phase of guided flight.
 const PHASE: &str = "guided.phase";
 /// A year, in s.
 pub(super) const YEAR_S: f64 = 365.25 * DAY_S;
 
 /// Longest flight, in years: its columns are in memory whole.
-const MOST_YEARS: f64 = 50.0;
+const MAX_YEARS: f64 = 50.0;
 
 /// A spacecraft ready for simulation.
 pub(super) struct SizedSpacecraft {
@@ -51,7 +51,7 @@ pub(super) struct SizedSpacecraft {
     pub bias_n_m_s: Vector3<f64>,
     /// Whether `momentum.*` are integrals of body components.
     pub is_body_integral: bool,
-    /// What sunlight is used for where there are downlinks, by item; the first is dumps alone.
+    /// Strategies of unloading by sunlight where there are downlinks, by item; the first is dumps alone.
     pub strategies: Vec<String>,
     // The FMU's folder and a mission's packed FMU, as long as they are in use.
     _folders: [Option<Scratch>; 2],
@@ -62,7 +62,7 @@ impl SizedSpacecraft {
     pub(super) fn open(arguments: &Size) -> Result<Self, Failure> {
         let text = files::read_text(&arguments.file)?;
         let file = arguments.file.display().to_string();
-        let is_mission = FileKind::of(&text) == Some(FileKind::Mission);
+        let is_mission = FileKind::recognize(&text) == Some(FileKind::Mission);
         let (fmu, mut sets, inputs, ([start_s, stop_s], is_of_its_time), folders) = match is_mission {
             false => {
                 FileKind::Spacecraft.check(&file, &text)?;
@@ -77,7 +77,7 @@ impl SizedSpacecraft {
             true => {
                 let template = arguments.template.clone();
                 let run = Run { fmu: arguments.file.clone(), template, ..Run::default() };
-                let simulated = Simulated::of(&run)?;
+                let simulated = Simulated::new(&run)?;
                 let (fmu, settings, folder) = Settings::of_fmu(&simulated, "a spacecraft or an FMU")?;
                 let is_of_its_time = simulated.mission.as_ref().is_some_and(|mission| {
                     let Given::Files { timeline, ephemeris, .. } = &mission.spacecraft_source else {
@@ -107,8 +107,8 @@ impl SizedSpacecraft {
         let is_body_integral = item(description, &sets, "momentum.convention") == Some("bodyIntegral");
         drop(started);
         let span_s = arguments.duration.unwrap_or(stop_s - start_s);
-        if span_s > MOST_YEARS * YEAR_S {
-            let [found, option] = [span_s / YEAR_S, MOST_YEARS].map(terminal::short);
+        if span_s > MAX_YEARS * YEAR_S {
+            let [found, option] = [span_s / YEAR_S, MAX_YEARS].map(terminal::short);
             return Err(format!(
                 "{file}: found a flight of {found} years, allowed: up to {option}: --duration"
             )
@@ -155,7 +155,7 @@ impl SizedSpacecraft {
             || self.spacecraft.start.iter().any(|entry| is_it(&entry.name))
     }
 
-    /// What is set in the last year of a mission of so many.
+    /// Values set in the last year of a mission of `years`.
     pub(super) fn last_year(&self, years: f64, end: &[String]) -> Result<Vec<(String, Value)>, Failure> {
         let first_s = self.started()?.get_real("start.epoch")?;
         let mut sets = vec![("start.epoch".to_owned(), Value::Real(first_s + (years - 1.0) * YEAR_S))];
@@ -163,7 +163,7 @@ impl SizedSpacecraft {
         Ok(sets)
     }
 
-    /// What a flight comes to, scaled to a year.
+    /// Scales a figure of a flight to a year.
     pub(super) fn per_year(&self, of_flight: f64) -> f64 {
         of_flight * YEAR_S / self.span_s
     }
@@ -182,7 +182,7 @@ fn check_plant(file: &str, description: &Description, sets: &[(String, Value)]) 
     }
 }
 
-/// Of the orbit at the start.
+/// Period of the orbit at the start.
 fn period_s(is_about_sun: bool, instance: &mut Instance) -> Result<f64, fmi::Error> {
     let gm_m3_s2 = match is_about_sun {
         true => Body::Sun.data().gm_m3_s2,

@@ -14,7 +14,7 @@ use super::{
     unloading::Unloadings,
 };
 
-/// What was found, but for pictures.
+/// Results, but for pictures.
 pub(super) struct Found {
     pub sources: Vec<SourceRow>,
     pub sweep: Sweep,
@@ -134,7 +134,7 @@ fn dumps(sized: &SizedSpacecraft, sweep: &Sweep) -> String {
     )
 }
 
-/// Of each wheel, by the threshold.
+/// Capacity of each wheel by the threshold.
 pub(super) fn capacity(sized: &SizedSpacecraft, dumped: &Dumped) -> f64 {
     capacity_n_m_s(&sized.spacecraft, &dumped.threshold_n_m_s)
 }

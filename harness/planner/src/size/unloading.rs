@@ -13,7 +13,7 @@ use super::{
 pub(super) struct Unloadings {
     /// Wheels between them.
     pub wheels: Wheels,
-    /// Of the first year, and of the last of a mission of several.
+    /// Figures of the first year, and of the last of a mission of several.
     pub years: Vec<YearOfUnloading>,
     /// The longest of them; `None` without thrusters that dump.
     pub longest: Option<Firing>,
@@ -30,7 +30,7 @@ pub(super) struct YearOfUnloading {
 /// Thrusters as they fire for one unloading.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Firing {
-    /// Of the one that fires longest at full thrust.
+    /// Time of the thruster that fires longest at full thrust.
     pub time_s: f64,
     pub propellant_kg: f64,
     /// Electric energy, in J; `None` where one has no power.
@@ -38,15 +38,15 @@ pub(super) struct Firing {
 }
 
 impl Unloadings {
-    /// Of these flights; `None` where they are shorter than the time between them.
-    pub(super) fn of(
+    /// Unloadings of these flights; `None` where they are shorter than the time between them.
+    pub(super) fn new(
         demands: &Demands<'_>,
         flights: &[Histories],
         every_s: f64,
         dumping: Option<&ThrusterSelection>,
     ) -> Option<Self> {
         let thrusters = &demands.sized.spacecraft.thrusters;
-        let firing = |impulse: &Vector3<f64>| dumping.map(|it| Firing::of(thrusters, it, &-impulse));
+        let firing = |impulse: &Vector3<f64>| dumping.map(|it| Firing::new(thrusters, it, &-impulse));
         let mut longest: Option<Firing> = None;
         let mut years = Vec::new();
         for flight in flights {
@@ -62,12 +62,12 @@ impl Unloadings {
         Some(Self { wheels: demands.wheels(flights, every_s), years, longest })
     }
 
-    /// Where the flights are shorter than the time between unloadings: wheels for all of them, and no dump.
+    /// Case of flights that are shorter than the time between unloadings: wheels for all of them, and no dump.
     pub(super) fn none(demands: &Demands<'_>, flights: &[Histories], every_s: f64) -> Self {
         Self { wheels: demands.wheels(flights, every_s), years: Vec::new(), longest: None }
     }
 
-    /// Propellant of so many years between the first and the last in proportion, in kg.
+    /// Propellant of `years` between the first and the last in proportion, in kg.
     pub(super) fn propellant_kg(&self, years: f64) -> f64 {
         let first_kg = self.years.first().map_or(0.0, |year| year.propellant_kg);
         years * 0.5 * (first_kg + self.years.last().map_or(first_kg, |year| year.propellant_kg))
@@ -76,7 +76,7 @@ impl Unloadings {
 
 impl Firing {
     /// For an impulse about the centre of mass, in N m s, body frame.
-    fn of(thrusters: &[Thruster], selection: &ThrusterSelection, impulse_n_m_s: &Vector3<f64>) -> Self {
+    fn new(thrusters: &[Thruster], selection: &ThrusterSelection, impulse_n_m_s: &Vector3<f64>) -> Self {
         let mut firing = Self { energy_j: Some(0.0), ..Self::default() };
         for (thruster, on_s) in thrusters.iter().zip(selection.on_times_s(impulse_n_m_s)) {
             firing.time_s = firing.time_s.max(on_s);

@@ -17,11 +17,11 @@ use super::{
 /// A plan that was simulated and checked against its limits.
 #[derive(Clone, Debug)]
 pub struct PlannedBurn {
-    /// Of the spacecraft.
+    /// Name of the spacecraft.
     pub name: String,
     /// Date, in s past J2000 TDB, where it was given.
     pub epoch_s: Option<f64>,
-    /// What was requested.
+    /// Request that the plan answers.
     pub task: Task,
     /// The train.
     pub row: TrainForecast,
@@ -60,7 +60,7 @@ struct Course {
 }
 
 impl Course {
-    fn of(way: &Way) -> Self {
+    fn new(way: &Way) -> Self {
         let both = |(from, to): (f64, f64)| [from.to_degrees(), to.to_degrees()];
         Self {
             length_deg: way.length_rad.to_degrees(),
@@ -135,8 +135,8 @@ impl PlannedBurn {
             miss_deg: self.flight.miss_rad(&self.task).to_degrees(),
             sun: place(&geometry.sun_inertial),
             earth: geometry.earth_inertial.as_ref().map(place),
-            great_circle: Course::of(&geometry.great_circle()),
-            rhumb_line: geometry.rhumb_line().as_ref().map(Course::of),
+            great_circle: Course::new(&geometry.great_circle()),
+            rhumb_line: geometry.rhumb_line().as_ref().map(Course::new),
             propellant_kg: self.row.propellant_kg,
             worst_nutation_deg: self.row.peak_rad.to_degrees(),
             worst_final_nutation_deg: self.row.final_rad.to_degrees(),

@@ -39,7 +39,7 @@ pub struct Cadence {
     pub holds: bool,
 }
 
-/// Where the antenna points between two turns, and how far Earth and Sun stray from it and from the spin axis.
+/// Direction of the antenna between two turns, and how far Earth and Sun stray from it and from the spin axis.
 struct Pointing {
     antenna_inertial: Vector3<f64>,
     sun_at_start_inertial: Vector3<f64>,

@@ -1,4 +1,4 @@
-//! Which plan is taken: the best by the limits of the flags and of the spacecraft's file.
+//! Choice of the plan: the best by the limits of the flags and of the spacecraft's file.
 
 use physics::spin::spinner::Spinner;
 

@@ -6,7 +6,7 @@ pub enum PlanError {
     /// A flag out of range.
     #[error("{flag} is {found}; allowed is {allowed}")]
     Flag {
-        /// Which.
+        /// Name of the flag.
         flag: &'static str,
         /// Its value.
         found: f64,
@@ -18,7 +18,7 @@ pub enum PlanError {
     Direction {
         /// The flag it comes from, or that mends it.
         flag: &'static str,
-        /// What is wrong, and what is allowed.
+        /// Fault, and what is allowed.
         what: String,
     },
     /// A spacecraft, thruster or limits that no plan is for.

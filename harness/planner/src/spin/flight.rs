@@ -29,7 +29,7 @@ pub struct Pulse {
     pub time_s: f64,
     /// For which it is open, in s.
     pub on_time_s: f64,
-    /// What fires.
+    /// Thruster that fires.
     pub thruster: String,
     /// Since the last Sun crossing, at the opening, in s; `None` before any.
     pub after_sun_s: Option<f64>,
@@ -41,7 +41,7 @@ pub struct Pulse {
     pub nutation_rad: f64,
 }
 
-/// What is seen between and in pulses.
+/// Sample between and in pulses.
 #[derive(Clone, Copy, Debug)]
 pub struct SpinSample {
     /// In s.
@@ -57,7 +57,7 @@ pub struct SpinSample {
 /// A simulated plan.
 #[derive(Clone, Debug)]
 pub struct SimulatedPlan {
-    /// Where the axis stands before the first.
+    /// Direction of the axis before the first pulse.
     pub start_axis_inertial: Vector3<f64>,
     /// The pulses.
     pub pulses: Vec<Pulse>,
@@ -66,7 +66,7 @@ pub struct SimulatedPlan {
 }
 
 impl SimulatedPlan {
-    /// Where the axis stands after the last pulse.
+    /// Returns the direction of the axis after the last pulse.
     pub fn end_axis_inertial(&self) -> Vector3<f64> {
         self.pulses.last().map_or(self.start_axis_inertial, |pulse| pulse.axis_inertial)
     }

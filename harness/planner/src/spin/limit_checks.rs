@@ -1,4 +1,4 @@
-//! What limits a plan has, what it comes to, and whether it keeps them.
+//! Limits of a plan, its values, and whether it keeps them.
 
 use physics::{
     attitude::angle_between_rad,
@@ -11,13 +11,13 @@ use super::{Task, TrainForecast, flight::SimulatedPlan};
 /// One limit.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct LimitCheck {
-    /// Of what.
+    /// Name of the limited quantity.
     pub limit: &'static str,
     /// The key or flag that gives it.
     pub given_by: &'static str,
-    /// What it comes to, in the unit.
+    /// Value of the plan, in the unit.
     pub found: f64,
-    /// What is allowed, in the unit: at least and at most.
+    /// Allowed range, in the unit: at least and at most.
     pub allowed: (f64, f64),
     /// Unit.
     pub unit: &'static str,

@@ -39,5 +39,5 @@ pub use start_values::toml as start_table;
 pub use task::{Firing, Task, TaskLimits};
 pub use text::{Answer, plan};
 pub use trade::{TrainForecast, best, evaluate, frontier, timing_label, trade, uniform_plan};
-pub use turn_geometry::{MOST_ANGLE_DEG, TurnGeometry, Way, right_ascension_declination_deg};
+pub use turn_geometry::{MAX_ANGLE_DEG, TurnGeometry, Way, right_ascension_declination_deg};
 pub use verification::{Verification, verify};

@@ -10,12 +10,12 @@ use physics::{
 use super::{PlanError, Task, campaign, longest_interval_s, tables::narrow, windows};
 
 /// Longest campaign: ten years.
-const MOST_DAYS: f64 = 3653.0;
+const MAX_DAYS: f64 = 3653.0;
 
 /// How often to turn over `days`, and what it costs.
 pub(super) fn months(spinner: &Spinner, task: &Task, days: f64) -> Result<String, PlanError> {
-    if !(days > 0.0 && days <= MOST_DAYS) {
-        let allowed = format!("above 0 to {MOST_DAYS} days");
+    if !(days > 0.0 && days <= MAX_DAYS) {
+        let allowed = format!("above 0 to {MAX_DAYS} days");
         return Err(PlanError::Flag { flag: "--campaign", found: days, allowed });
     }
     let (phases, duration_s) = (L1Phases::default(), days * DAY_S);

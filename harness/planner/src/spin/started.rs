@@ -20,7 +20,7 @@ fn entry<'a>(spinner: &'a Spinner, name: &str) -> Option<&'a StartEntry> {
     of(Some(MODEL)).or_else(|| of(None))
 }
 
-/// Where `start.q` of the spacecraft's file has the spin axis.
+/// Direction of the spin axis by `start.q` of the spacecraft's file.
 pub(super) fn axis_inertial(spinner: &Spinner) -> Option<Vector3<f64>> {
     let number = |value: &StartValue| match value {
         StartValue::Real(number) => Some(*number),

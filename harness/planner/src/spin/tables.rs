@@ -68,7 +68,7 @@ fn cells(row: &TrainForecast, keeps: bool, mark: &str) -> Vec<String> {
     ]
 }
 
-/// What each limit comes to.
+/// Table of every limit with the plan's value.
 pub(super) fn limits(checks: &[LimitCheck]) -> String {
     let mut table = narrow(&["limit", "found", "allowed", "verdict"]);
     for one in checks {

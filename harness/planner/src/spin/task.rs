@@ -1,4 +1,4 @@
-//! What a spinner's manoeuvre has to achieve, and with what.
+//! Task of a spinner's manoeuvre: its goal and its means.
 
 use nalgebra::Vector3;
 use physics::{
@@ -14,10 +14,10 @@ use physics::{
 
 use super::{
     Options, PlanError, TimingOption, started,
-    turn_geometry::{MOST_ANGLE_DEG, TurnGeometry},
+    turn_geometry::{MAX_ANGLE_DEG, TurnGeometry},
 };
 
-/// What fires, as a burn of the FMU takes it.
+/// Thruster or group that fires, as a burn of the FMU takes it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Firing {
     /// A group by its name.
@@ -48,11 +48,11 @@ pub struct Task {
     pub angle_tolerance: f64,
     /// Best knowledge of the body, and the thruster.
     pub case: ForecastCase,
-    /// What may be wrong with it.
+    /// Range of the errors of the case.
     pub range: Range,
     /// Name of the thruster or group.
     pub thruster: String,
-    /// What fires.
+    /// Thruster or group, as a burn of the FMU takes it.
     pub firing: Firing,
     /// On board, in kg.
     pub propellant_kg: f64,
@@ -93,8 +93,8 @@ impl Task {
         let positive = |flag, found: f64| check(flag, found, found > 0.0, "a positive number");
         let not_negative = |flag, found: f64| check(flag, found, found >= 0.0, "0 or a positive number");
         let angle_deg = options.angle_deg;
-        let allowed = format!("above 0 to {MOST_ANGLE_DEG} deg");
-        check("--angle", angle_deg, angle_deg > 0.0 && angle_deg <= MOST_ANGLE_DEG, &allowed)?;
+        let allowed = format!("above 0 to {MAX_ANGLE_DEG} deg");
+        check("--angle", angle_deg, angle_deg > 0.0 && angle_deg <= MAX_ANGLE_DEG, &allowed)?;
         let sun_deg = options.sun_angle_deg;
         check("--sun-angle", sun_deg, sun_deg > 0.0 && sun_deg < 90.0, "above 0 to below 90 deg")?;
         let geometry = TurnGeometry::new(options, spinner)?;
@@ -236,7 +236,7 @@ impl Task {
     }
 }
 
-/// What fires: the flag's, otherwise the first thruster that tilts the momentum.
+/// Thruster that fires: the flag's, otherwise the first one that tilts the momentum.
 fn thruster_name(options: &Options, spinner: &Spinner) -> Result<String, PlanError> {
     if let Some(name) = &options.thruster {
         return Ok(name.clone());

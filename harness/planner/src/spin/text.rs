@@ -21,8 +21,8 @@ use super::{
 /// Ratios simulated through the FMU.
 const RATIOS: u32 = 24;
 /// Plans that are simulated before the search is given up.
-const MOST_SIMULATED: usize = 5;
-/// What the best plan is simulated through unless another is named.
+const MAX_SIMULATED: usize = 5;
+/// FMU through which the best plan is simulated unless another is named.
 const SHIPPED_FMU: &str = "dist/SpinPlant.fmu";
 
 /// The planner's answer.
@@ -62,7 +62,7 @@ fn spacecraft(options: &Options) -> Result<Spinner, PlanError> {
 fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Answer, PlanError> {
     let rows = trade(&task)?;
     best(&rows)?;
-    let candidates = by_all_limits(spinner, &task, &rows, MOST_SIMULATED)?;
+    let candidates = by_all_limits(spinner, &task, &rows, MAX_SIMULATED)?;
     let (chosen, simulations) = simulated_again(options, &task, &candidates)?;
     let flight = simulated(spinner, &task, chosen)?;
     let checks = check_limits(spinner, &task, chosen, &flight);
@@ -218,7 +218,7 @@ fn simulated_again<'a>(
         Err(error) => return not_simulated(error.to_string()),
     };
     let mut lines = Vec::new();
-    for row in rows.iter().copied().take(MOST_SIMULATED) {
+    for row in rows.iter().copied().take(MAX_SIMULATED) {
         let simulated = verify(&fmu, task, row, RATIOS)?;
         let broken = simulated.broken(task);
         if broken.is_empty() {
@@ -233,7 +233,7 @@ fn simulated_again<'a>(
     )))
 }
 
-/// What came out of a simulation that kept everything, beside what was predicted.
+/// Text on a simulation that kept all limits, beside the prediction.
 fn kept(task: &Task, row: &TrainForecast, simulated: &Verification) -> String {
     let rates =
         if simulated.rates > 1 { format!(" at {} spin rates", simulated.rates) } else { String::new() };

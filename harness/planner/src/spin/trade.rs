@@ -56,7 +56,7 @@ impl TrainForecast {
         format!("{shape} /{}", self.train.turns_per_pulse())
     }
 
-    /// What the train is, in words.
+    /// Name of the train, in words.
     pub fn label(&self) -> String {
         let shape = match self.train.shape {
             Shape::Uniform => "uniform".to_owned(),
@@ -107,7 +107,7 @@ pub fn trade(task: &Task) -> Result<Vec<TrainForecast>, PlanError> {
     Ok(rows)
 }
 
-/// Those of `rows` that no other beats in final nutation, peak and duration at once, in their order.
+/// Returns the rows that no other beats in final nutation, peak and duration at once, in their order.
 pub fn frontier(rows: &[TrainForecast]) -> Vec<&TrainForecast> {
     let beats = |a: &TrainForecast, b: &TrainForecast| {
         let no_worse = a.final_rad <= b.final_rad && a.peak_rad <= b.peak_rad && a.duration_s <= b.duration_s;
@@ -213,7 +213,7 @@ fn damping_s(task: &Task, nutation_rad: f64) -> f64 {
     }
 }
 
-/// What a timing is called.
+/// Name of a timing.
 pub fn timing_label(timing: Timing) -> &'static str {
     match timing {
         Timing::Clock => "clock",

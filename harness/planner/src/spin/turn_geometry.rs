@@ -17,7 +17,7 @@ use super::{Options, PlanError, options::RightAscensionDeclination, started};
 
 /// Greatest turn that is planned. A burn is steered by the part of its target's direction across the momentum, which goes to
 /// 0 as the turn nears half a circle.
-pub const MOST_ANGLE_DEG: f64 = 175.0;
+pub const MAX_ANGLE_DEG: f64 = 175.0;
 
 /// Samples of a great circle.
 const SAMPLES: u32 = 200;
@@ -27,18 +27,18 @@ const ALONG_RAD: f64 = 1e-6;
 /// A turn that comes no closer to the Sun goes round it, in rad.
 const NO_CLOSER_RAD: f64 = 1e-9;
 
-/// What a turn goes from and to, unit vectors in EME2000.
+/// Start and end of a turn, unit vectors in EME2000.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TurnGeometry {
     /// Spin axis at the start.
     pub axis_inertial: Vector3<f64>,
-    /// Where it shall point.
+    /// Direction that it is to end at.
     pub target_inertial: Vector3<f64>,
     /// Toward the Sun.
     pub sun_inertial: Vector3<f64>,
     /// Toward the Earth, where it is known.
     pub earth_inertial: Option<Vector3<f64>>,
-    /// Where Sun and Earth are from, in words.
+    /// Source of the directions of Sun and Earth, in words.
     pub origin: String,
 }
 
@@ -93,8 +93,8 @@ impl TurnGeometry {
             })?;
             let target_inertial = inertial(target);
             let apart_deg = angle_between_rad(&axis_inertial, &target_inertial).to_degrees();
-            if !(apart_deg > 0.0 && apart_deg <= MOST_ANGLE_DEG) {
-                let allowed = format!("above 0 to {} deg", MOST_ANGLE_DEG);
+            if !(apart_deg > 0.0 && apart_deg <= MAX_ANGLE_DEG) {
+                let allowed = format!("above 0 to {} deg", MAX_ANGLE_DEG);
                 let what =
                     format!("found {apart_deg:.4} deg from the spin axis at the start, allowed: {allowed}");
                 return Err(refuse("--target", &what));
@@ -223,7 +223,7 @@ impl TurnGeometry {
 
 /// A rhumb line on Mercator's map about the Sun, where it is straight.
 struct RhumbCourse {
-    /// Of the start, about the Sun.
+    /// Position at the start, about the Sun.
     first: Vector3<f64>,
     /// From start to end about the Sun, in rad.
     azimuth_rad: f64,

@@ -14,7 +14,7 @@ use super::{
     start_values::{plan_item, timing_item},
 };
 
-/// What the FMU computes for a plan.
+/// Results of the FMU for a plan.
 #[derive(Clone, Copy, Debug)]
 pub struct Verification {
     /// Inertia ratios and spin rates; each with each is a simulation.
@@ -35,7 +35,7 @@ pub struct Verification {
 }
 
 impl Verification {
-    /// What of `task` it breaks, in words; empty if it keeps everything.
+    /// Returns the limits of `task` that it breaks, in words; empty if it keeps all.
     pub fn broken(&self, task: &Task) -> Vec<String> {
         let mut broken = Vec::new();
         let mut compare = |what: &str, found: f64, limit: f64, unit: &str| {
@@ -105,7 +105,7 @@ pub fn verify(fmu: &Fmu, task: &Task, row: &TrainForecast, ratios: u32) -> Resul
     Ok(seen)
 }
 
-/// Runs `row` once with the body `spin`; the burn goes by what the task assumes.
+/// Runs `row` once with the body `spin`; the burn is timed by what the task assumes.
 fn simulate(fmu: &Fmu, task: &Task, row: &TrainForecast, spin: &Spin) -> Result<Simulated, PlanError> {
     let stop_s = row.train.duration_s(spin.period_s()) + 4.0 * spin.period_s();
     let names = [

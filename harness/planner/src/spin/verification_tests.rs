@@ -52,7 +52,7 @@ fn alternating_trains_fire_the_thrusters_they_were_planned_for() {
 fn turns_are_simulated_to_their_end_as_far_as_they_may_be_requested() {
     let Some(fmu) = shipped() else { return };
     for timing in ["sun", "clock", "phase"] {
-        for angle_deg in [89.0, 91.0, 135.0, super::MOST_ANGLE_DEG] {
+        for angle_deg in [89.0, 91.0, 135.0, super::MAX_ANGLE_DEG] {
             let task = task(&format!("--angle {angle_deg} --timing {timing} --ratio-uncertainty 0.01"));
             for turns in [0.5, 1.0] {
                 let row = evaluate(&task, Shape::Tapered { order: 1 }, 8, turns).unwrap();

@@ -1,4 +1,4 @@
-//! Where the spacecraft balances: X and Z of the torque vanish together, by Newton's method on the sphere; where all of it is least.
+//! Balances of the spacecraft: X and Z of the torque vanish together, by Newton's method on the sphere; minimum of the whole torque.
 
 use fmi::Error;
 use nalgebra::{Matrix2, Vector2, Vector3};
@@ -8,11 +8,11 @@ use super::{
     sunlight::Sunlight,
 };
 
-/// What counts as zero, as a part of the greatest torque.
+/// Torque that counts as zero, relative to the greatest.
 const ZERO: f64 = 1e-12;
-const MOST_STEPS: u32 = 30;
+const MAX_STEPS: u32 = 30;
 /// A step is halved at most so often until torque falls.
-const MOST_HALVINGS: u32 = 8;
+const MAX_HALVINGS: u32 = 8;
 /// Longest step, in rad.
 const LONGEST_RAD: f64 = 0.1;
 /// Points nearer than this are one, in rad.
@@ -25,7 +25,7 @@ const TARGETED: [usize; 2] = [0, 2];
 pub struct Balance {
     /// Azimuth and elevation.
     pub place_deg: Angles,
-    /// What is left, in N m.
+    /// Remaining torque, in N m.
     pub torque_n_m: Vector3<f64>,
     /// Whether a small turn of the spacecraft about any axis across Y is turned back, panels following the Sun.
     pub is_restoring: bool,
@@ -84,7 +84,7 @@ fn newton(
     mut sun: Vector3<f64>,
     greatest_n_m: f64,
 ) -> Result<Option<Balance>, Error> {
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         let ways = across(&sun);
         let (load, slopes) = sunlight.slopes(&sun, ways)?;
         let size_n_m = targeted(&load.torque_n_m).norm();
@@ -99,7 +99,7 @@ fn newton(
         }
         step *= (LONGEST_RAD / step.norm()).min(1.0);
         let mut next = None;
-        for _ in 0..MOST_HALVINGS {
+        for _ in 0..MAX_HALVINGS {
             let tried = (sun + ways[0] * step.x + ways[1] * step.y).normalize();
             if targeted(&sunlight.at(&tried)?.torque_n_m).norm() < size_n_m {
                 next = Some(tried);
@@ -127,7 +127,7 @@ fn newton(
     Ok(Some(Balance { place_deg, torque_n_m, is_restoring }))
 }
 
-/// Where the whole torque is least within the limits of a grid, by a search with shrinking steps from its least node, in N m.
+/// Finds the minimum of the whole torque within the limits of a grid, by a search with shrinking steps from its least node, in N m.
 ///
 /// # Errors
 /// A call that failed.

@@ -7,9 +7,9 @@ use super::grid::cell;
 /// An edge of the grid: its first node, and whether it runs along a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Edge {
-    /// Of the first node.
+    /// Column of the first node.
     pub column: usize,
-    /// Of the first node.
+    /// Row of the first node.
     pub row: usize,
     /// Otherwise along a column.
     pub is_along_row: bool,

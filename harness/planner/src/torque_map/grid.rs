@@ -78,7 +78,7 @@ impl Grid {
         Ok(loads)
     }
 
-    /// Of a node.
+    /// Returns the angles of a node.
     pub fn angles_deg(&self, column: usize, row: usize) -> Angles {
         let at = |axis: usize, index: usize| {
             let (index, steps) = (index as f64, self.steps[axis] as f64);

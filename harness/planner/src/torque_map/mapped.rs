@@ -14,9 +14,9 @@ use super::{
 pub struct Mapped {
     /// The loads.
     pub grid: Grid,
-    /// Where X, Y and Z vanish.
+    /// Lines on which X, Y and Z vanish.
     pub lines: [Vec<ZeroLine>; 3],
-    /// Where X and Z vanish together.
+    /// Points at which X and Z vanish together.
     pub balances: Vec<Balance>,
 }
 

@@ -15,5 +15,5 @@ pub use grid::{Angles, Grid, direction};
 pub use mapped::Mapped;
 pub use panels::{Rule, TurnedPanels};
 pub use sunlight::{LitSpacecraft, Load, Sunlight};
-pub use worth::{Worth, worths};
+pub use worth::{TorqueSensitivity, worths};
 pub use zero_lines::ZeroLine;

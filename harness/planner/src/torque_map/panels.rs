@@ -5,23 +5,23 @@ use physics::{numerics::scalar::Dual64, spacecraft::Panel};
 
 /// A panel and what turns it.
 pub struct TurnedPanels {
-    /// Of the spacecraft's file.
+    /// Panel of the spacecraft's file.
     pub panel: Panel,
-    /// What turns it.
+    /// Rule that turns it.
     pub rule: Rule,
 }
 
-/// What sets a panel's angle.
+/// Rule that sets a panel's angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rule {
-    /// It keeps an angle between cells and Sun, tilted by a sign about its axis.
+    /// Constant angle between cells and Sun, tilted by a sign about its axis.
     SunOffset {
         /// The angle, in rad.
         offset_rad: f64,
         /// The sign: 1 or -1.
         tilt_sign: f64,
     },
-    /// It stands at this angle, in rad.
+    /// Fixed angle, in rad.
     Angle(f64),
 }
 

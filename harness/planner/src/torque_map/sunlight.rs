@@ -16,11 +16,11 @@ pub struct LitSpacecraft {
     pub panels: Vec<TurnedPanels>,
     /// From the Sun, in m.
     pub distance_m: f64,
-    /// What acts: the last part of the outputs' names.
+    /// Source of the load: the last part of the outputs' names.
     pub source: &'static str,
 }
 
-/// What acts, body frame.
+/// Force and torque, body frame.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Load {
     /// About the centre of mass, in N m.

@@ -1,4 +1,4 @@
-//! What a degree of the Sun's direction or of the panels is worth, by the FMU's own derivatives.
+//! Sensitivity of the torque to a degree of the Sun's direction or of the panels, by the FMU's own derivatives.
 
 use fmi::Error;
 use nalgebra::Vector3;
@@ -10,7 +10,7 @@ use super::{
 };
 
 /// One quantity that is turned by a degree.
-pub struct Worth {
+pub struct TorqueSensitivity {
     /// The quantity.
     pub what: String,
     /// Change of torque for each degree, body frame.
@@ -26,12 +26,12 @@ pub fn worths(
     spacecraft: &LitSpacecraft,
     [azimuth_deg, elevation_deg]: Angles,
     called: impl Fn(&str) -> String,
-) -> Result<(Vector3<f64>, Vec<Worth>), Error> {
+) -> Result<(Vector3<f64>, Vec<TorqueSensitivity>), Error> {
     let (mut sunlight, sun) = (Sunlight::new(spacecraft)?, direction([azimuth_deg, elevation_deg]));
     // A quarter turn on along either angle; along azimuth a great circle, which at a pole is one as well.
     let ahead = [direction([azimuth_deg + 90.0, 0.0]), direction([azimuth_deg, elevation_deg + 90.0])];
     let (load, slopes) = sunlight.slopes(&sun, ahead)?;
-    let per_deg = |what: &str, slope: Vector3<f64>| Worth {
+    let per_deg = |what: &str, slope: Vector3<f64>| TorqueSensitivity {
         what: what.to_owned(),
         torque_n_m_per_deg: slope * 1_f64.to_radians(),
     };

@@ -13,11 +13,11 @@ use super::{
     sunlight::Sunlight,
 };
 
-/// What counts as zero, as a part of the component's greatest size.
+/// Value that counts as zero, relative to the component's greatest size.
 const ZERO: f64 = 1e-12;
-/// What is tried for.
+/// Value at which the iteration ends.
 const TRIED: f64 = 1e-13;
-const MOST_TRIES: u32 = 80;
+const MAX_TRIES: u32 = 80;
 /// Places nearer than this to the middle are on it.
 const ON_DEG: f64 = 1e-9;
 
@@ -39,7 +39,7 @@ impl ZeroLine {
         self.places_deg.iter().all(|place| place[of].abs() < ON_DEG)
     }
 
-    /// Where it crosses the middle, 0 of azimuth or of elevation: the other angle, in deg.
+    /// Returns its crossings of the middle, 0 of azimuth or of elevation: the other angle, in deg.
     pub fn crossings_deg(&self, of: usize) -> Vec<f64> {
         let is_on = |place: &Angles| place[of].abs() < ON_DEG;
         let mut found: Vec<f64> = Vec::new();
@@ -102,7 +102,7 @@ fn root(
         return Ok(Some(place));
     }
     let mut best = if a.1.abs() < b.1.abs() { a } else { b };
-    for _ in 0..MOST_TRIES {
+    for _ in 0..MAX_TRIES {
         if best.1.abs() <= TRIED * greatest_n_m {
             break;
         }

@@ -39,7 +39,7 @@ fn flights(structure: &Structure) -> Vec<JitterCase> {
 
 const URAD: f64 = 1e6;
 /// What is less is drawn there.
-const LEAST_DB: f64 = -110.0;
+const MIN_DB: f64 = -110.0;
 
 fn shown(shaken: &Shaken, structure: &Structure) -> Vec<String> {
     let Shaken { flight, spectrum } = shaken;
@@ -113,7 +113,7 @@ fn spectra(shaken: &[Shaken]) -> Chart {
         let chosen = shaken.iter().filter(move |it| it.flight.controlled == controlled);
         let series = chosen.map(|Shaken { flight, spectrum }| {
             let points = spectrum.between(LOWEST_HZ, FASTEST_HZ + 1.0);
-            let points = points.map(|(hz, amplitude)| (hz, decibels(amplitude).max(LEAST_DB)));
+            let points = points.map(|(hz, amplitude)| (hz, decibels(amplitude).max(MIN_DB)));
             Series::line(flight.label.clone(), points.collect())
         });
         Panel::new(y_label).with(series)

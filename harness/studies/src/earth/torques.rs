@@ -15,7 +15,7 @@ const ORBITS: u32 = 25;
 const POINTS: f64 = 200.0;
 /// Ticks of the pictures' axes: heights in km, and torques in N m by their power of ten.
 const TICKS_KM: [f64; 8] = [200.0, 500.0, 1000.0, 2000.0, 5000.0, 10_000.0, 20_000.0, 36_000.0];
-const LEAST_POWER: i32 = -14;
+const MIN_POWER: i32 = -14;
 
 /// One orbit: its height, mean and greatest torque by effect.
 struct AtHeight {
@@ -90,13 +90,13 @@ fn chart(found: &[AtHeight]) -> Chart {
     let series = (0..EFFECTS.len()).map(|k| {
         let point = |orbit: &AtHeight| {
             let power = orbit.mean_n_m[k].log10();
-            let is_seen = power >= f64::from(LEAST_POWER);
+            let is_seen = power >= f64::from(MIN_POWER);
             ((orbit.height_m / 1e3).log10(), if is_seen { power } else { f64::NAN })
         };
         Series::line(EFFECTS[k], found.iter().map(point).collect())
     });
     let panel = Panel::new("mean torque [N m]").with(series);
-    let names = (LEAST_POWER..=-3).step_by(2).map(|power| (f64::from(power), format!("1e{power}"))).collect();
+    let names = (MIN_POWER..=-3).step_by(2).map(|power| (f64::from(power), format!("1e{power}"))).collect();
     let mut chart =
         Chart::new("Torque on a 12U CubeSat by height", "height [km]").with([Panel { names, ..panel }]);
     chart.x_names = TICKS_KM.map(|height_km| (height_km.log10(), format!("{height_km:.0}"))).to_vec();

@@ -10,7 +10,7 @@ use planner::{
     momentum::{
         Convention, Limit,
         attainable::{Reachable, reachable},
-        in_force::InForce,
+        in_force::ActiveControls,
         plan::{Least, MomentumPlan, PlanTask, PlannedDump, Simulates, plan},
         plant::{self, StartValues},
         simulated::{FlightRow, MomentumSize, SAME_S, SimulatedFlight},
@@ -83,7 +83,7 @@ impl<'a> Leg<'a> {
         let text = files::read_text(&fmu.folder().join("resources/spacecraft.toml"))?;
         let sunlit =
             plant::sunlit(plant::spacecraft("spacecraft.toml", &text)?, &values, Convention::Inertial)?;
-        let force_model = ForceModel::of(&values, 0.0)?;
+        let force_model = ForceModel::new(&values, 0.0)?;
         let radius_m = values.real("planet.radius");
         let kind =
             FlightKind { convention: Convention::Inertial, panels: sunlit.panels.len(), has_encounter: true };
@@ -219,7 +219,8 @@ impl<'a> Leg<'a> {
 
     /// A plan's, which begins with windows in force.
     fn task(&self, room: &Room, windows: &[Window], has_aim: bool) -> PlanTask {
-        let in_force = windows.iter().map(|it| InForce { at_s: it.start_s, controls: it.controls }).collect();
+        let in_force =
+            windows.iter().map(|it| ActiveControls { at_s: it.start_s, controls: it.controls }).collect();
         // A square in the circle.
         let side_m = TOLERANCE_M * core::f64::consts::FRAC_1_SQRT_2;
         PlanTask {

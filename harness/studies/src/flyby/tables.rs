@@ -38,7 +38,7 @@ fn flyby(run: &Run<'_>, mission: &Mission) -> Result<[f64; 3], Failure> {
     let gm_m3_s2 = leg.force_model.gm_m3_s2;
     let (r, v) = (encounter.closest.position_m, encounter.closest.velocity_m_s);
     let excess_m_s = (v.norm_squared() - 2.0 * gm_m3_s2 / r.norm()).sqrt();
-    let delta_v_m_s = Flyby::of(leg.radius_m + altitude_m, excess_m_s, gm_m3_s2).delta_v_m_s;
+    let delta_v_m_s = Flyby::new(leg.radius_m + altitude_m, excess_m_s, gm_m3_s2).delta_v_m_s;
     Ok([altitude_m, excess_m_s, delta_v_m_s])
 }
 

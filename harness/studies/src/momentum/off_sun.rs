@@ -18,7 +18,7 @@ const STEP_S: f64 = 600.0;
 /// No dump: above all that gathers.
 const THRESHOLD_N_M_S: f64 = 1000.0;
 /// What is less than this is light at grazing rounding, in N s.
-const LEAST_N_S: f64 = 1e-6;
+const MIN_N_S: f64 = 1e-6;
 /// Surfaces that messenger.toml has as well; their backs it has not.
 const KNOWN: [&str; 10] = [
     "side +X",
@@ -132,7 +132,7 @@ fn within_the_zone(run: &mut Run<'_>, few: &Simulated, whole: &Simulated) -> Out
         let is_known = KNOWN.contains(&name.as_str()) && !seen.contains(&name.as_str());
         seen.push(name);
         let lit = force_n.iter().filter(|force| force.norm() > 0.0).count();
-        if total.norm() > LEAST_N_S && !is_known {
+        if total.norm() > MIN_N_S && !is_known {
             let share = format!("{:.1} %", 100.0 * lit as f64 / force_n.len().max(1) as f64);
             rows.push(row![shown(name, total), share.as_str()]);
         }

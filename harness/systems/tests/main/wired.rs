@@ -243,7 +243,7 @@ fn the_systems_own_connectors_stand_for_variables_in_their_own_units() {
     assert_eq!(position("idle"), None);
     // One number to both inputs, in their unit.
     let places = system.places(position("aim").unwrap());
-    assert_eq!(places.iter().map(|place| place.linear.of(2.0)).collect::<Vec<_>>(), [2000.0, 2000.0]);
+    assert_eq!(places.iter().map(|place| place.linear.apply(2.0)).collect::<Vec<_>>(), [2000.0, 2000.0]);
     assert_eq!(places[0].at.0, 1);
     assert_eq!(system.places(position("turn").unwrap())[0].linear, Linear::IDENTITY);
     let open = system.open_inputs();

@@ -22,11 +22,11 @@ pub struct Pairing {
 }
 
 impl Pairing {
-    /// Of two tables.
+    /// Pairs the columns of two tables.
     ///
     /// # Errors
     /// Tables that have another first column, no row or no column in common.
-    pub fn of(first: &Table, second: &Table) -> Result<Self, String> {
+    pub fn new(first: &Table, second: &Table) -> Result<Self, String> {
         let [one, other] = [first, second].map(|table| table.path.display());
         let key = &first.key;
         if *key != second.key {

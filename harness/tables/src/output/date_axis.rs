@@ -17,7 +17,7 @@ const STEPS_MONTHS: [u32; 9] = [1, 2, 3, 6, 12, 24, 60, 120, 240];
 pub(super) struct DateAxis {
     /// Epochs in s past J2000 TDB, with their texts.
     pub ticks: Vec<(f64, String)>,
-    /// What the axis is.
+    /// Label of the axis.
     pub label: String,
 }
 

@@ -1,4 +1,4 @@
-//! What an output format of `heliotorque run` does with a recording.
+//! Exporters of a recording, one for each output format of `heliotorque run`.
 
 use std::{
     error::Error,
@@ -10,7 +10,7 @@ use model_description::Description;
 
 /// An output of a run in one format.
 pub(super) trait Exporter {
-    /// Takes the recording so far, of which only rows are added between two calls.
+    /// Takes the recording so far; only rows are added between two calls.
     fn update(&mut self, _recording: &Recording) -> Result<(), String> {
         Ok(())
     }

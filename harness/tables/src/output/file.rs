@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 /// A file that a run writes.
 #[derive(Clone, Debug)]
 pub struct OutputFile {
-    /// Where it is.
+    /// Path of the file.
     pub path: PathBuf,
-    /// What gave it.
+    /// Option that named it.
     pub option: &'static str,
     /// The folder that it may not leave: that of the mission whose file names it.
     pub home: Option<PathBuf>,

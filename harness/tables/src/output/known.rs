@@ -1,4 +1,4 @@
-//! What a run knows of what it draws: names from the spacecraft's file, and the values that quantities are held against.
+//! Context of drawings of a run: names from the spacecraft's file, and the values that quantities are compared with.
 
 use std::{
     collections::BTreeMap,
@@ -14,7 +14,7 @@ use physics::{
     spin::spinner::Spinner,
 };
 
-/// What is known.
+/// Names and bounds.
 #[derive(Clone, Debug, Default)]
 pub struct Known {
     names: BTreeMap<String, String>,
@@ -25,9 +25,9 @@ pub struct Known {
 }
 
 impl Known {
-    /// Of an FMU or a system: each part by what its variables begin with and the folder it is unpacked in, the values set before
-    /// the run, and what the run is judged by.
-    pub fn of(
+    /// Context of an FMU or a system: each part by the prefix of its variables and the folder it is unpacked in, the values set before
+    /// the run, and its limits.
+    pub fn new(
         parts: &[(String, PathBuf)],
         described: &Description,
         sets: &[(String, Value)],
@@ -67,7 +67,7 @@ impl Known {
         self.names.get(&variable[..end]).map(String::as_str)
     }
 
-    /// What a variable is held against either way: what it is, and its value in the variable's unit.
+    /// Returns the bound of a variable in both directions: its name, and its value in the variable's unit.
     pub fn bound(&self, variable: &str) -> Option<(&str, f64)> {
         self.bounds.get(variable).map(|(label, value)| (label.as_str(), *value))
     }
@@ -78,7 +78,7 @@ impl Known {
     }
 }
 
-/// What a picture calls a bound: its name without what it has in common with the variable, and without the index of an element.
+/// Returns the name of a bound in a picture: without what it has in common with the variable, and without the index of an element.
 fn bound_label(variable: &str, bound: &str) -> String {
     let shared = variable.bytes().zip(bound.bytes()).take_while(|(one, other)| one == other).count();
     let own = bound[..shared].rfind('.').map_or(bound, |dot| &bound[dot + 1..]);
@@ -144,7 +144,7 @@ mod tests {
         let parts = [("p.".to_owned(), folder.path().to_owned())];
         let limit =
             Limit { name: "p.wheel[1].speed".to_owned(), min: None, max: Some(3.0), at: String::new() };
-        let known = Known::of(&parts, &description, &[], &[limit]);
+        let known = Known::new(&parts, &description, &[], &[limit]);
         let spacecraft = Spacecraft::from_toml("", physics::spacecraft::MESSENGER_TOML).unwrap();
         assert_eq!(known.name("p.wheel[1].speed"), Some(spacecraft.wheels[0].name.as_str()));
         assert_eq!(known.name("p.plate[7].temperature"), Some("lid"));
@@ -155,7 +155,7 @@ mod tests {
         assert_eq!(bound_label("p.wheel[2].momentum", "p.wheel[2].capacity"), "capacity");
         assert_eq!(bound_label("sun.azimuth", "keepIn.azimuth"), "keepIn.azimuth");
         let set = [("p.dump.threshold[2]".to_owned(), Value::Real(7.0))];
-        let set = Known::of(&parts, &description, &set, &[]);
+        let set = Known::new(&parts, &description, &set, &[]);
         assert_eq!(set.bound("p.momentum.body[2]"), Some(("dump.threshold", 7.0)));
     }
 }

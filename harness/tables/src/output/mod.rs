@@ -49,7 +49,7 @@ pub struct Plot {
     pub names: Option<Vec<String>>,
 }
 
-/// What a run shall write.
+/// Requested outputs of a run.
 #[derive(Clone, Debug)]
 pub struct Requested {
     /// The CSV file.

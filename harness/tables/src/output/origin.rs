@@ -1,4 +1,4 @@
-//! Where a table comes from, as TOML beside it: what was simulated, from which values, and what its columns are.
+//! Origin of a table, as TOML beside it: the simulation, its values, and the columns.
 
 use std::path::PathBuf;
 
@@ -16,7 +16,7 @@ pub(super) const HEAD: &str =
 /// The key of an FMU's epoch at the start.
 pub const EPOCH_KEY: &str = "epoch_s_past_j2000_tdb";
 
-/// What a table comes from.
+/// Origin of a table.
 pub struct Origin<'a> {
     /// The FMU, system or mission, as it was named.
     pub file: PathBuf,

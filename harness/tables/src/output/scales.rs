@@ -32,7 +32,7 @@ pub(super) struct Scales {
 
 impl Scales {
     /// Gathers the sizes in a recording.
-    pub(super) fn of(described: &Description, recording: &Recording) -> Self {
+    pub(super) fn new(described: &Description, recording: &Recording) -> Self {
         let mut scales = Self { units: BTreeMap::new(), sizes: BTreeMap::new() };
         let reals = described.variables.iter().filter(|it| matches!(it.kind, VariableKind::Real { .. }));
         for variable in reals {

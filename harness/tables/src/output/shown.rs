@@ -5,7 +5,7 @@ use model_description::{Description, EnumerationItem, ScalarVariable, VariableKi
 
 use super::scales::ROUNDING;
 
-/// What a description says of a time that may be none.
+/// Words in the description of a time that may be absent.
 const NONE: &str = "; -1 ";
 /// The value that says so, in s.
 const NONE_S: f64 = -1.0;
@@ -28,13 +28,13 @@ pub(super) struct Shown<'a> {
     may_be_none: bool,
     is_epoch: bool,
     is_angle: bool,
-    /// What an Enumeration may be.
+    /// Items of an Enumeration.
     pub items: &'a [EnumerationItem],
 }
 
 impl<'a> Shown<'a> {
-    /// Of the variable of this name.
-    pub(super) fn of(description: &'a Description, name: &str) -> Self {
+    /// Returns how the variable of this name is shown.
+    pub(super) fn new(description: &'a Description, name: &str) -> Self {
         let Some(variable) = find(description, name) else {
             return Self { unit: "", factor: 1.0, ..Self::default() };
         };

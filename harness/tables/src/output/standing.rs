@@ -1,4 +1,4 @@
-//! What stands where a mission's output goes: only what a run wrote is replaced without a word.
+//! Files at the destination of a mission's output: only those that a run wrote are replaced without a message.
 
 use std::{io::Read, path::Path};
 
@@ -18,7 +18,7 @@ pub enum OutputKind<'a> {
     History(&'a [u8]),
     /// A picture.
     Picture,
-    /// What a table comes from.
+    /// Origin of a table.
     Origin,
 }
 
@@ -57,7 +57,7 @@ pub fn check(file: &OutputFile, destination: &Destination, kind: OutputKind<'_>)
     }
 }
 
-/// What a file is to the output that would replace it.
+/// Relation of a file to the output that would replace it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Standing {
     /// An earlier one.

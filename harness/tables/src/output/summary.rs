@@ -1,4 +1,4 @@
-//! What a run came to, on the terminal: least, greatest and last value of everything recorded, a vector in a row.
+//! Summary of a run on the terminal: least, greatest and last value of everything recorded, a vector in a row.
 
 use std::error::Error;
 
@@ -52,14 +52,14 @@ fn table(described: &Description, recording: &Recording, most: usize) -> String 
 
 fn rows<'a>(described: &'a Description, recording: &'a Recording) -> Vec<SummaryRow<'a>> {
     let mut rows: Vec<SummaryRow<'a>> = Vec::new();
-    let scales = Scales::of(described, recording);
+    let scales = Scales::new(described, recording);
     let columns: Vec<(&String, &Column)> = recording.names.iter().zip(&recording.columns).collect();
     for group in columns.chunk_by(|one, other| vector(one.0).is_some() && vector(one.0) == vector(other.0)) {
         let Some((first, _)) = group.first() else { continue };
         let name = vector(first).filter(|_| group.len() > 1).unwrap_or(first);
-        let unit = Shown::of(described, first).unit;
+        let unit = Shown::new(described, first).unit;
         let size = scales.size(first);
-        let components = group.iter().map(|(name, column)| texts(&Shown::of(described, name), column, size));
+        let components = group.iter().map(|(name, column)| texts(&Shown::new(described, name), column, size));
         rows.push(SummaryRow { name, unit, components: components.collect() });
     }
     rows

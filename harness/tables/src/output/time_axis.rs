@@ -11,7 +11,7 @@ const TIME_UNITS: [(f64, &str, f64); 4] =
 pub struct TimeAxis {
     /// Seconds of a unit of it.
     pub seconds: f64,
-    /// What it is.
+    /// Label of the axis.
     pub label: String,
     /// Places with their dates; empty: numbers.
     pub names: Vec<(f64, String)>,

@@ -22,7 +22,7 @@ pub struct Visit {
 }
 
 impl Visit {
-    /// Appends it to a payload, as [`Visit::of`] reads it.
+    /// Appends it to a payload, as [`Visit::read`] reads it.
     pub fn push(&self, payload: &mut Vec<u64>) {
         payload.extend([self.row, self.dumps].map(|it| u64::from(it as u32)));
         let numbers = [self.span_s, self.sun_rad].concat();
@@ -30,7 +30,7 @@ impl Visit {
     }
 
     /// The visit of a payload.
-    pub fn of(payload: &mut Payload<'_>) -> Option<Self> {
+    pub fn read(payload: &mut Payload<'_>) -> Option<Self> {
         let words = payload.words(WORDS)?;
         let number = |k: usize| f64::from_bits(words[k]);
         Some(Self {

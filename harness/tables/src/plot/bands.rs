@@ -12,7 +12,7 @@ use crate::{
 const MEDIAN: &str = ".p50";
 /// Pairs of percentiles, the widest first.
 const BANDS: [(u32, u32); 3] = [(1, 99), (5, 95), (25, 75)];
-/// What a campaign's table of percentiles has behind the name of the campaign's runs.
+/// Suffix of a campaign's table of percentiles, after the name of the campaign's runs.
 const BEHIND: &str = "-percentiles";
 
 /// Whether a table has percentiles.

@@ -1,16 +1,16 @@
 //! Cells of an axis: one for each value where there are few, otherwise equally wide ones.
 
 /// Different values that have a cell each at most.
-const MOST_VALUES: usize = 40;
+const MAX_VALUES: usize = 40;
 /// Cells at least and at most.
 const CELLS: [usize; 2] = [4, 80];
 
-/// Edges of cells, so many where values do not repeat, that hold these sorted values; two edges at least.
+/// Edges of cells, `cells` of them where values do not repeat, that hold these sorted values; two edges at least.
 pub fn edges(sorted: &[f64], cells: usize) -> Vec<f64> {
     let mut different = sorted.to_vec();
     different.dedup();
     let (Some(&first), Some(&last)) = (different.first(), different.last()) else { return vec![0.0, 1.0] };
-    let repeats = different.len() <= MOST_VALUES && 2 * different.len() <= sorted.len();
+    let repeats = different.len() <= MAX_VALUES && 2 * different.len() <= sorted.len();
     if repeats || first == last {
         return about(&different);
     }

@@ -15,7 +15,7 @@ const MARKED: [f64; 3] = [5.0, 50.0, 95.0];
 /// How runs end.
 const STATUS: &str = "status";
 
-/// What a table's rows are.
+/// Word for a table's rows.
 pub fn rows(table: &Table) -> &'static str {
     if table.key == "run" { "runs" } else { "rows" }
 }

@@ -1,4 +1,4 @@
-//! What each varied quantity alone changes of a column: runs at its mean and at plus and minus its standard deviation.
+//! Change of a column by each varied quantity alone: runs at its mean and at plus and minus its standard deviation.
 
 use drawing::TornadoChart;
 

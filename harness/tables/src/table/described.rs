@@ -15,14 +15,14 @@ use super::{
 /// A recording and what its variables are.
 #[derive(Clone, Debug)]
 pub struct Described {
-    /// Of the columns, in their order.
+    /// Description of the columns, in their order.
     pub description: Description,
     /// The columns.
     pub recording: Recording,
 }
 
 impl Described {
-    /// Of a table, by what is known of it; a column of texts has no numbers.
+    /// Describes a table by its sidecar; a column of texts has no numbers.
     pub fn new(table: &Table, sidecar: &Sidecar) -> Self {
         let file = || table.path.display().to_string();
         let mut description =

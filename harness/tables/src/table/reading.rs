@@ -13,7 +13,7 @@ use model_description::{Description, ScalarVariable, names::similar};
 /// Name of a first column of times in s.
 pub const TIME: &str = "time";
 /// Largest table that is read, in bytes: its cells take twice that in memory.
-const MOST_BYTES: u64 = 512 << 20;
+const MAX_BYTES: u64 = 512 << 20;
 
 /// A table by columns.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -39,7 +39,7 @@ impl Table {
     pub fn read(path: &Path) -> Result<Self, String> {
         let file = path.display();
         let failed = |error: &dyn std::fmt::Display| format!("{file}: {error}");
-        let opened = files::open_at_most(path, MOST_BYTES).map_err(|error| failed(&error))?;
+        let opened = files::open_at_most(path, MAX_BYTES).map_err(|error| failed(&error))?;
         let mut reader = ReaderBuilder::new()
             .has_headers(false)
             .comment(Some(b'#'))

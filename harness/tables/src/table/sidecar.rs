@@ -1,4 +1,4 @@
-//! What stands beside a table, `NAME.csv.toml`: units, items and epoch of a run, units and sampling of a campaign.
+//! Sidecar of a table, `NAME.csv.toml`: units, items and epoch of a run, units and sampling of a campaign.
 
 use std::{collections::BTreeMap, io::ErrorKind, path::Path};
 
@@ -6,22 +6,22 @@ use model_description::VariableRole;
 
 use crate::output::EPOCH_KEY;
 
-/// What is known of a table's columns.
+/// Metadata of a table's columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sidecar {
-    /// What was simulated, for people.
+    /// Name of the simulation, for people.
     pub title: Option<String>,
     /// Epoch of time 0, in s past J2000 TDB.
     pub zero_epoch_s: Option<f64>,
-    /// What is known of each column.
+    /// Metadata of each column.
     pub columns: BTreeMap<String, Quantity>,
     /// How a campaign draws its values.
     pub sampling: Option<String>,
-    /// What it varies.
+    /// Varied columns.
     pub varied: Vec<String>,
 }
 
-/// What a column holds.
+/// Quantity of a column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Quantity {
     /// Its unit.
@@ -37,7 +37,7 @@ pub struct Quantity {
 }
 
 impl Sidecar {
-    /// Of a table; nothing is known of one that stands alone.
+    /// Reads the sidecar of a table; one without a sidecar has no metadata.
     ///
     /// # Errors
     /// A file beside it that cannot be read, or is no TOML.
@@ -51,11 +51,11 @@ impl Sidecar {
             let line = 1 + text[..error.span().map_or(0, |span| span.start)].matches('\n').count();
             format!("{}:{line}: {}", path.display(), error.message())
         })?;
-        Ok(Self::of(&parsed))
+        Ok(Self::from_toml(&parsed))
     }
 
-    /// What is missing is not known.
-    fn of(parsed: &toml::Table) -> Self {
+    /// Keys that are missing leave their fields empty.
+    fn from_toml(parsed: &toml::Table) -> Self {
         let table = |key: &str| parsed.get(key).and_then(toml::Value::as_table);
         let text = |key: &str| parsed.get(key).and_then(toml::Value::as_str).map(str::to_owned);
         let fmus = parsed.get("fmus").and_then(toml::Value::as_array).map_or(&[][..], Vec::as_slice);
@@ -119,7 +119,7 @@ mod tests {
 
     #[test]
     fn both_kinds_of_files_are_read() {
-        let run = Sidecar::of(
+        let run = Sidecar::from_toml(
             &r#"
             start_s = 10
             simulated = "mission.toml"
@@ -145,7 +145,7 @@ mod tests {
         );
 
         let campaign = "sampling = \"oneAtATime\"\nstart_s = 10\n[fmu]\nepoch_s_past_j2000_tdb = 30\n[units]\nx = \"m\"\ny = \"1\"\n[vary]\nx = { normal = [0, 1] }\n";
-        let campaign = Sidecar::of(&campaign.parse().unwrap());
+        let campaign = Sidecar::from_toml(&campaign.parse().unwrap());
         assert_eq!((campaign.unit("x"), campaign.unit("y")), (Some("m"), None));
         assert_eq!(campaign.zero_epoch_s, Some(20.0));
         assert_eq!(

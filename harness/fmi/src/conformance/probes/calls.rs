@@ -13,12 +13,12 @@ const STATES: [State; 5] =
 /// Calls each function in each state, every time in a fresh instance.
 pub(crate) fn probe(fmu: &Fmu) -> Findings {
     let mut findings = Vec::new();
-    let (mut as_reported, mut left_out) = (0, 0);
+    let (mut as_reported, mut skipped) = (0, 0);
     for state in STATES {
         for &function in Function::ALL {
             for case in cases(fmu, function, state) {
                 match call(fmu, &case)? {
-                    None => left_out += 1,
+                    None => skipped += 1,
                     Some(status) => match compare(&case, status) {
                         None => as_reported += 1,
                         Some(finding) => findings.push(finding),
@@ -28,7 +28,7 @@ pub(crate) fn probe(fmu: &Fmu) -> Findings {
         }
     }
     findings.push(Finding::good(format!(
-        "{as_reported} calls answered as the table requires, {left_out} not possible with this FMU"
+        "{as_reported} calls answered as the table requires, {skipped} not possible with this FMU"
     )));
     Ok(findings)
 }
@@ -80,7 +80,7 @@ fn cases(fmu: &Fmu, function: Function, state: State) -> Vec<CallCase<'_>> {
     }
 }
 
-/// For the functions that take variables: of which base type, and whether they set them.
+/// Returns the base type of the functions that take variables, and whether they set them.
 fn variable_function(function: Function) -> Option<(BaseType, bool)> {
     match function {
         Function::GetReal => Some((BaseType::Real, false)),
@@ -101,7 +101,7 @@ fn meets(fmu: &Fmu, condition: Condition, variable: &ScalarVariable) -> bool {
     condition.admits(variable, unknowns.iter().any(|unknown| Some(unknown.index) == position))
 }
 
-/// What is beyond the table and yet common.
+/// Returns the answers beyond the table that are common.
 fn lenient(function: Function, state: State, variable: &ScalarVariable) -> Expected {
     let sets = matches!(variable_function(function), Some((_, true)));
     let admits = match state {

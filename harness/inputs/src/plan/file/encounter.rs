@@ -13,9 +13,9 @@ use crate::{
 };
 
 /// Least miss that can be a tolerance, in m.
-const LEAST_TOLERANCE_M: f64 = 1.0;
+const MIN_TOLERANCE_M: f64 = 1.0;
 /// Most flights with errors.
-const MOST_RUNS: usize = 100_000;
+const MAX_RUNS: usize = 100_000;
 /// The approach manoeuvre where none is given, before the arrival.
 const APPROACH_S: f64 = -42.0 * DAY_S;
 
@@ -123,7 +123,7 @@ impl Builder<'_> {
         let from = flyby.from.as_ref().and_then(|written| self.instant_at(&place.key("from"), written));
         let tolerance = place.key("tolerance");
         let tolerance_m = self.length(&tolerance, flyby.tolerance.as_deref()).unwrap_or(1e3);
-        if let Some(written) = flyby.tolerance.as_deref().filter(|_| tolerance_m < LEAST_TOLERANCE_M) {
+        if let Some(written) = flyby.tolerance.as_deref().filter(|_| tolerance_m < MIN_TOLERANCE_M) {
             tolerance.report(written, "a length from 1 m on");
         }
         let (aimpoint, key) = aimpoint?;
@@ -192,8 +192,8 @@ impl Builder<'_> {
             None => 200,
             written => self.count(&runs, written, 0).unwrap_or(0) as usize,
         };
-        if !(2..=MOST_RUNS).contains(&count) {
-            runs.report(count, format_args!("from 2 to {MOST_RUNS}"));
+        if !(2..=MAX_RUNS).contains(&count) {
+            runs.report(count, format_args!("from 2 to {MAX_RUNS}"));
         }
         let seed = self.count(&place.key("seed"), table.seed.as_deref(), 0).unwrap_or(1);
         let deviation_m = |written: &Written| written.quantity("m").filter(|it| *it >= 0.0);

@@ -14,7 +14,7 @@ use super::{
 };
 use crate::ephemeris::{Failure, Source};
 
-/// Open kernels, of which the later ones count first.
+/// Open kernels; later ones take precedence.
 pub struct Kernels {
     files: Vec<SpkFile>,
     center: Center,

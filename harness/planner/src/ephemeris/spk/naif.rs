@@ -42,8 +42,8 @@ pub struct Center {
     pub id: i32,
 }
 
-/// A centre by name or id; another body than the known ones is `custom`, that of the spacecraft's file. The barycentre stands for a planet of which kernels often place nothing else, but never for the
-/// Earth, which the Moon carries 4700 km away from it.
+/// A centre by name or id; another body than the known ones is `custom`, that of the spacecraft's file. The barycentre stands for a planet, as kernels
+/// often place nothing else, but never for the Earth, which the Moon carries 4700 km away from it.
 pub fn center(text: &str) -> Result<Center, String> {
     let text = text.trim().to_lowercase();
     Body::ALL

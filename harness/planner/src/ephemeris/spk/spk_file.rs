@@ -28,9 +28,9 @@ use super::naif;
 const RECORD: usize = 1024;
 /// Length of a number, in bytes.
 const NUMBER: usize = 8;
-/// Where the file record holds the number of the first summary record.
+/// Offset in the file record of the number of the first summary record.
 const FIRST_SUMMARIES: usize = 76;
-/// Where it holds the order of bytes, and that of this machine.
+/// Offset in the file record of the order of bytes, and this machine's order.
 const BYTE_ORDER: usize = 88;
 const NATIVE: &[u8] = if cfg!(target_endian = "little") { b"LTL-IEEE" } else { b"BIG-IEEE" };
 /// The frame J2000, the mean equator and equinox of that epoch: EME2000.

@@ -14,7 +14,7 @@ fn the_attitude_turns_over_later_where_the_place_says_so() {
     let start = leg.start();
     let intercept = leg.intercept(start, 0.0, LONG_S);
     let flight = leg.recorded(start, intercept.z);
-    let path = Path::of(&flight).unwrap();
+    let path = Path::new(&flight).unwrap();
     let sunlit = sunlit([0.0; 3]);
     let flips = LightAlong::new(&path, &sunlit).flips();
     assert!(flips.len() >= 2, "{}", flips.len());
@@ -29,7 +29,7 @@ fn the_attitude_turns_over_later_where_the_place_says_so() {
     let mut leg = Leg::new(fixed_in_the_body(1e4), true);
     let begin = packed(&path.at(span_s[0]).from_sun);
     let recorded = leg.recorded_over(begin, span_s, 300.0);
-    let path = Path::of(&recorded).unwrap();
+    let path = Path::new(&recorded).unwrap();
     let light = LightAlong::new(&path, &sunlit);
     let found = light.flips();
     assert_eq!(found.len(), 1);

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use super::*;
 use crate::momentum::{
     encountered::Encountered,
-    in_force::InForce,
+    in_force::ActiveControls,
     plan::{MomentumPlan, plan},
     target::Target,
     test_spacecraft::{DAY_S, row, simulated, sunlit, task},
@@ -173,7 +173,7 @@ fn a_flight_that_alternates_is_within_its_own_reach() {
     let bounds = ControlBounds { alternate: 1.0, ..tilts() };
     let mut task = targeting(f64::INFINITY, bounds);
     let controls = Controls::default().with(Control::Alternate, 1.0);
-    task.layout.in_force = vec![InForce { at_s: 0.0, controls }];
+    task.layout.in_force = vec![ActiveControls { at_s: 0.0, controls }];
     let Encounters { sunlit, mut simulated, .. } = Encounters::new(Vector3::new(1e5, -2e4, 0.0));
     let mut momentum = Vector3::zeros();
     for row in &mut simulated.rows {

@@ -280,7 +280,7 @@ mod downlinks {
             let mut least = f64::INFINITY;
             for a in &first {
                 for b in &second {
-                    let greatest = at_edges([*a, *b]).iter().map(|it| self.size.of(it)).fold(0.0, f64::max);
+                    let greatest = at_edges([*a, *b]).iter().map(|it| self.size.size(it)).fold(0.0, f64::max);
                     least = least.min(greatest);
                 }
             }

@@ -17,7 +17,7 @@ fn layout() -> Layout {
     layout.frozen_until_s = 2.0 * DAY_S;
     layout.window_s = 3.0 * DAY_S;
     layout.occupied =
-        vec![Occupied { start_s: 7.25 * DAY_S, stop_s: 8.0 * DAY_S, planned: true, command: 4 }];
+        vec![BusySpan { start_s: 7.25 * DAY_S, stop_s: 8.0 * DAY_S, planned: true, command: 4 }];
     layout
 }
 
@@ -42,7 +42,7 @@ fn free_windows_begin_with_the_plan_in_force() {
     let mut layout = layout();
     layout.control_bounds.offset_rad = 0.05;
     let present = Controls([0.2, 0.01, 0.05, 0.3, 0.0, 0.0, 0.0]);
-    layout.in_force = vec![InForce { at_s: 0.0, controls: present }];
+    layout.in_force = vec![ActiveControls { at_s: 0.0, controls: present }];
     let (windows, steps) = layout.windows(&sunlit, &simulated(&sunlit, 20, 0.4)).unwrap();
     let baseline_rad = steps[0].offset_rad;
     assert!(baseline_rad > 0.3, "{baseline_rad}");

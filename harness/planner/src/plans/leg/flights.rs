@@ -19,7 +19,7 @@ const BEHIND_S: f64 = 3600.0;
 /// Rows of a path, and the time of the first behind its start as a share of the leg.
 const PATH_ROWS: u32 = 240;
 const PATH: [&str; 2] = ["position", "encounter.position"];
-/// What is recorded at the encounter.
+/// Variables recorded at the encounter.
 const ENCOUNTER: [&str; 8] = [
     "position",
     "velocity",
@@ -38,7 +38,7 @@ pub(super) struct LegFlights<'a> {
     mission: &'a SimulatedMission,
     /// The planet's name in variables.
     body: &'static str,
-    /// Of the departure, from the Sun, EME2000, m.
+    /// Position at the departure, from the Sun, EME2000, m.
     position_m: Vector3<f64>,
     arrival_s: f64,
     /// Before the closest approach, of the hyperbola of B.
@@ -147,7 +147,7 @@ impl<'a> LegFlights<'a> {
     }
 }
 
-/// Where the FMU has no encounter.leadTime, in s.
+/// Lead time where the FMU has no encounter.leadTime, in s.
 const LEAD_S: f64 = 21_600.0;
 
 impl SimulatesLeg for LegFlights<'_> {

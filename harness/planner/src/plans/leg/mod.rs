@@ -33,7 +33,7 @@ use super::{
 };
 use crate::{
     Failure,
-    leg::{Leg, LegError, LegTask, MOST_LEG_S, report, shoot},
+    leg::{Leg, LegError, LegTask, MAX_LEG_S, report, shoot},
     orbit::LambertError,
 };
 
@@ -64,7 +64,7 @@ pub fn checked(file: &Path, library: Library<'_>) -> Result<String, Failure> {
     let found = LegFile::read(file)?;
     let unjudged = library.unjudged(&found.mission.it)?;
     if unjudged.is_none() {
-        Prepared::of(&found, library.template())?;
+        Prepared::new(&found, library.template())?;
     }
     let at = |instant: values::Instant| match instant {
         values::Instant::Time(time_s) => format!("day {}", terminal::short(time_s / DAY_S)),
@@ -176,11 +176,11 @@ fn check(file: &LegFile, mission: &SimulatedMission, arrival_s: f64) -> Result<(
             .problem(&file.arrive, "found a time that is not after the departure, allowed: a later one")
             .into());
     }
-    if arrival_s - mission.start_s > MOST_LEG_S {
+    if arrival_s - mission.start_s > MAX_LEG_S {
         let years = terminal::short((arrival_s - mission.start_s) / (365.25 * DAY_S));
         let what = format!(
             "found a time {years} years behind the departure, allowed: up to {} years behind it",
-            terminal::short(MOST_LEG_S / (365.25 * DAY_S))
+            terminal::short(MAX_LEG_S / (365.25 * DAY_S))
         );
         return Err(file.problem(&file.arrive, &what).into());
     }
@@ -208,7 +208,7 @@ impl<'a> Prepared<'a> {
     ///
     /// # Errors
     /// Whatever is refused, by the leg's line.
-    fn of(file: &'a LegFile, template: Option<&Path>) -> Result<Self, Failure> {
+    fn new(file: &'a LegFile, template: Option<&Path>) -> Result<Self, Failure> {
         let of_leg = LegMission::read(file)?;
         let scratch = Scratch::new()?;
         // At rest it would fall into the Sun; every flight has a velocity of its own.
@@ -227,7 +227,7 @@ pub fn run(options: &LegOptions) -> Outcome {
     let file = LegFile::read(&options.leg)?;
     check_standing(&options.output, NAMES)?;
     let _folder = OutputFolder::create(&options.output, "--output")?;
-    let Prepared { of_leg, mission, arrival_s, begun } = Prepared::of(&file, options.template.as_deref())?;
+    let Prepared { of_leg, mission, arrival_s, begun } = Prepared::new(&file, options.template.as_deref())?;
     let in_mission = |error: Failure| file.in_mission(&error.to_string(), &begun);
     let last = RefCell::new(String::new());
     let say = |doing: &str| {

@@ -1,4 +1,4 @@
-//! Where a plan's flights are to meet a planet, and how each of them misses that.
+//! Encounter that a plan's flights aim at, and the miss of each.
 
 use inputs::{
     leg::FlybyAimpoint,
@@ -25,8 +25,8 @@ pub(super) struct Aim {
 
 impl Aim {
     /// Refuses a planet that is not the mission's, and a date that it has not.
-    pub(super) fn of(file: &PlanFile, flyby: &Flyby, mission: &SimulatedMission) -> Result<Self, Failure> {
-        let force_model = ForceModel::of(&mission.values(), mission.start_s)
+    pub(super) fn new(file: &PlanFile, flyby: &Flyby, mission: &SimulatedMission) -> Result<Self, Failure> {
+        let force_model = ForceModel::new(&mission.values(), mission.start_s)
             .map_err(|error| format!("{}: {error}", mission.mission.file.display()))?;
         let name = force_model.body.data().name;
         if !name.eq_ignore_ascii_case(&flyby.body.it) {
@@ -39,7 +39,7 @@ impl Aim {
     }
 }
 
-/// Where a plan's flights are to meet a planet.
+/// Encounter that a plan's flights aim at.
 #[derive(Clone, Debug)]
 pub(crate) struct FlybyTask {
     pub(super) force_model: ForceModel,
@@ -47,13 +47,13 @@ pub(crate) struct FlybyTask {
     pub(super) tolerance_m: f64,
     /// Radius of the planet, in m.
     pub radius_m: f64,
-    /// Of the mission as it is.
+    /// Partials of the mission as it is.
     pub first: Sensitivity,
 }
 
 impl FlybyTask {
     /// By the flight of the mission as it is.
-    pub(super) fn of(
+    pub(super) fn new(
         file: &PlanFile,
         (flyby, Aim { force_model, arrival_s }): (&Flyby, Aim),
         (mission, sunlit): (&SimulatedMission, &SunlitSpacecraft),

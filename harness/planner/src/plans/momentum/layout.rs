@@ -18,7 +18,7 @@ use crate::{
 };
 
 /// Most windows of a plan.
-const MOST_WINDOWS: f64 = 1000.0;
+const MAX_WINDOWS: f64 = 1000.0;
 
 /// Refuses a plan without free time, or with windows beyond count.
 pub(super) fn check_spans(file: &PlanFile, mission: &SimulatedMission) -> Result<(), Failure> {
@@ -30,7 +30,7 @@ pub(super) fn check_spans(file: &PlanFile, mission: &SimulatedMission) -> Result
         let what = format!("{found}, allowed: less, so that there is something to plan");
         return Err(file.problem(&file.freeze_s, &what).into());
     }
-    let least_s = length_s / MOST_WINDOWS;
+    let least_s = length_s / MAX_WINDOWS;
     if file.window_s.it < least_s {
         let found = format!("found {} d of the mission's {} d", days(file.window_s.it), days(length_s));
         let what = format!("{found}, allowed: from {} d on", days(least_s));
@@ -56,7 +56,7 @@ pub(super) fn check_arrays(file: &PlanFile, mission: &SimulatedMission) -> Resul
 }
 
 /// Angle that no downlink's Sun is off -Y by, in rad: where neither plan nor keep-in zone bounds it.
-const MOST_TILT_RAD: f64 = 1.5;
+const MAX_TILT_RAD: f64 = 1.5;
 /// Places stay so far within the keep-in zone, in rad: angles are rounded where they are written.
 const WITHIN_ZONE_RAD: f64 = 1e-4;
 
@@ -80,7 +80,7 @@ pub(super) fn orbit_layout(
     }
     let zone_rad = mission.values().zone_rad();
     let tilt = |angle_rad: Option<f64>, zone_rad: f64| {
-        angle_rad.unwrap_or(MOST_TILT_RAD).min(zone_rad - WITHIN_ZONE_RAD).max(0.0)
+        angle_rad.unwrap_or(MAX_TILT_RAD).min(zone_rad - WITHIN_ZONE_RAD).max(0.0)
     };
     let control_bounds = ControlBounds {
         azimuth_rad: tilt(file.azimuth_rad, zone_rad[0]),

@@ -41,7 +41,7 @@ use crate::{
     },
 };
 
-/// What is planned.
+/// Kind of plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlanKind {
     /// Momentum alone.
@@ -76,7 +76,7 @@ impl PlanKind {
 
 /// Reads what the plan file names, and simulates the mission as it is.
 fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> Result<Planned<'a>, Failure> {
-    let prepared = Prepared::of(file, options.template.as_deref())?;
+    let prepared = Prepared::new(file, options.template.as_deref())?;
     if let Some(at) = &file.update {
         let (updated, folder) = flyby::updated(file, at, &prepared.mission)?;
         let begun = PlanFile { update: None, ..updated };
@@ -89,7 +89,7 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
     let mut simulated = mission.simulate(None)?;
     let flyby_task = file.flyby.as_ref().zip(aim);
     let flyby_task =
-        flyby_task.map(|(at, aim)| FlybyTask::of(&file, (&at.it, aim), (&mission, &sunlit), &simulated));
+        flyby_task.map(|(at, aim)| FlybyTask::new(&file, (&at.it, aim), (&mission, &sunlit), &simulated));
     let flyby_task = flyby_task.transpose()?;
     simulated.encountered = flyby_task.as_ref().map(|it| it.aimpoint.encountered(&it.first, &simulated.rows));
     let layout = match cruise {
@@ -133,7 +133,7 @@ pub fn checked(path: &Path, library: Library<'_>) -> Result<String, Failure> {
     kind.check(&found)?;
     let unjudged = library.unjudged(&found.mission.it)?;
     if unjudged.is_none() {
-        Prepared::of(&found, library.template())?;
+        Prepared::new(&found, library.template())?;
     }
     let days = |time_s: f64| terminal::short(time_s / DAY_S);
     let deg = |angle_rad: f64| terminal::short(angle_rad.to_degrees());

@@ -34,7 +34,7 @@ pub(super) struct Planned<'a> {
     pub timeline: MissionTimeline,
     pub sunlit: SunlitSpacecraft,
     pub simulated: SimulatedFlight,
-    /// Of a plan with a flyby.
+    /// Aim of a plan with a flyby.
     pub flyby_task: Option<FlybyTask>,
     pub task: PlanTask,
     /// Values that a refit gives.

@@ -31,7 +31,7 @@ pub(super) struct Prepared {
     pub sets: Vec<(String, Vec<f64>)>,
     /// Encounter of a plan with a flyby.
     pub aim: Option<Aim>,
-    /// Windows in cruise. In an orbit phase a flight shows its downlinks; with `[update]` the mission is another one.
+    /// Windows in cruise. In an orbit phase a flight shows its downlinks; with `[update]` the mission changes.
     pub cruise: Option<Layout>,
 }
 
@@ -40,7 +40,7 @@ impl Prepared {
     ///
     /// # Errors
     /// Whatever is refused, by the plan's line.
-    pub(super) fn of(file: &PlanFile, template: Option<&Path>) -> Result<Self, Failure> {
+    pub(super) fn new(file: &PlanFile, template: Option<&Path>) -> Result<Self, Failure> {
         let refit = file.refit.as_ref().map(|at| refit(file, at)).transpose()?;
         let sets: Vec<(String, Vec<f64>)> = refit.iter().flat_map(sets_of).collect();
         let settings = sets.iter().map(|(name, values)| {
@@ -76,10 +76,10 @@ impl Prepared {
             return Err(file.problem(at, &what).into());
         }
         let found = mission.timeline(&spacecraft)?;
-        let timeline = MissionTimeline::of(&mission, found.as_ref())?;
+        let timeline = MissionTimeline::new(&mission, found.as_ref())?;
         let own: Option<&Timeline> = found.as_ref().map(|(_, timeline)| timeline);
         let sunlit = mission.sunlit(own)?;
-        let aim = file.flyby.as_ref().map(|at| Aim::of(&file, &at.it, &mission)).transpose()?;
+        let aim = file.flyby.as_ref().map(|at| Aim::new(&file, &at.it, &mission)).transpose()?;
         for at in &file.activities {
             prices::span_s(&file, at, &mission)?;
         }

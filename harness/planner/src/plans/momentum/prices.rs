@@ -17,7 +17,7 @@ use crate::{
         plan::{MomentumPlan, PlanTask},
         report::Price,
         simulated::SimulatedFlight,
-        windows::{Occupied, Window, WindowKind},
+        windows::{BusySpan, Window, WindowKind},
     },
 };
 
@@ -88,7 +88,7 @@ pub(super) fn all(
         };
         let with = planned.simulated.with_part_of(&flight, [from_s, to_s]);
         let mut other = task.clone();
-        other.layout.occupied.push(Occupied {
+        other.layout.occupied.push(BusySpan {
             start_s: from_s,
             stop_s: to_s,
             planned: false,

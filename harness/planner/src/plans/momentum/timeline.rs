@@ -18,11 +18,11 @@ use super::super::flights::SimulatedMission;
 use crate::{
     Failure,
     momentum::{
-        in_force::InForce,
+        in_force::ActiveControls,
         plan::PlannedDump,
         report::PlanEvent,
         torque::{Control, Controls},
-        windows::{Layout, Occupied, Window, WindowKind},
+        windows::{BusySpan, Layout, Window, WindowKind},
     },
 };
 
@@ -44,7 +44,7 @@ struct Kept {
     status: PlanStatus,
 }
 
-/// What the mission's own timeline says.
+/// Contents of the mission's own timeline.
 #[derive(Clone, Debug, Default)]
 pub(super) struct MissionTimeline {
     commands: Vec<Kept>,
@@ -113,7 +113,7 @@ impl MissionTimeline {
     ///
     /// # Errors
     /// A file that cannot be read again.
-    pub(super) fn of(
+    pub(super) fn new(
         mission: &SimulatedMission,
         found: Option<&(String, Timeline)>,
     ) -> Result<Self, Failure> {
@@ -176,12 +176,12 @@ impl MissionTimeline {
     }
 
     /// Commands that a plan leaves as they are.
-    pub(super) fn occupied(&self, stop_s: f64) -> Vec<Occupied> {
+    pub(super) fn occupied(&self, stop_s: f64) -> Vec<BusySpan> {
         let next = |index: usize| self.commands.get(index + 1).map_or(stop_s, |next| next.at_s);
         let commands = self.commands.iter().enumerate();
         commands
             .filter(|(_, kept)| kept.status != PlanStatus::Free)
-            .map(|(index, kept)| Occupied {
+            .map(|(index, kept)| BusySpan {
                 start_s: kept.at_s,
                 stop_s: kept.until_s.unwrap_or(f64::INFINITY).min(next(index)),
                 planned: kept.status == PlanStatus::Planned,
@@ -192,7 +192,7 @@ impl MissionTimeline {
 
     /// Controls of the mission from its start on, where every panel stands at one offset plus a windmill angle by its side: `sides` is
     /// which way that turns each of them, `offsets_rad` where they stand before the timeline's first step; else none.
-    pub(super) fn own(&self, start_s: f64, sides: &[f64], offsets_rad: &[f64]) -> Vec<InForce> {
+    pub(super) fn own(&self, start_s: f64, sides: &[f64], offsets_rad: &[f64]) -> Vec<ActiveControls> {
         let turned = sides.iter().position(|side| *side != 0.0);
         // Panels on both sides are at offset + windmill and offset - windmill.
         let other = turned.and_then(|turned| sides.iter().position(|side| *side == -sides[turned]));
@@ -232,14 +232,14 @@ impl MissionTimeline {
             let ([azimuth, elevation], [own_azimuth, own_elevation]) = (of(false), of(true));
             let controls =
                 Controls([offset_rad, windmill_rad, azimuth, elevation, share, own_azimuth, own_elevation]);
-            Some(InForce { at_s, controls })
+            Some(ActiveControls { at_s, controls })
         };
-        let all: Option<Vec<InForce>> = times_s.into_iter().map(at).collect();
+        let all: Option<Vec<ActiveControls>> = times_s.into_iter().map(at).collect();
         all.unwrap_or_default()
     }
 
     /// Part of `own` that is a plan: from the time on at which both arrays and Sun directions are commanded.
-    pub(super) fn in_force(&self, own: &[InForce]) -> Vec<InForce> {
+    pub(super) fn in_force(&self, own: &[ActiveControls]) -> Vec<ActiveControls> {
         let (Some((arrays_s, _)), Some((places_s, ..))) = (self.arrays_rad.first(), self.sun_places.first())
         else {
             return Vec::new();
@@ -304,7 +304,7 @@ impl MissionTimeline {
         let before = layout.own.iter().rfind(|it| it.at_s < frozen_s - CLOCK_S && !panels.is_empty());
         let steps = array_steps(windows);
         let stays =
-            |first: &ArrayStep| before.is_some_and(|it| ArrayStep::of(first.at_s, &it.controls) == *first);
+            |first: &ArrayStep| before.is_some_and(|it| ArrayStep::new(first.at_s, &it.controls) == *first);
         for step in steps.iter().skip(usize::from(steps.first().is_some_and(stays))) {
             let mut text =
                 format!("[[panels]]\nat = {}\nsunOffset = \"{} deg\"\n", clock(step.at_s), step.offset_deg);
@@ -347,7 +347,7 @@ pub(super) struct ArrayStep {
 }
 
 impl ArrayStep {
-    fn of(at_s: f64, controls: &Controls) -> Self {
+    fn new(at_s: f64, controls: &Controls) -> Self {
         let [offset_deg, windmill_deg] =
             [Control::Offset, Control::Windmill].map(|it| shown_deg(controls.get(it)));
         Self { at_s, offset_deg, windmill_deg }
@@ -360,7 +360,7 @@ pub(super) fn array_steps(windows: &[Window]) -> Vec<ArrayStep> {
     for window in
         windows.iter().filter(|window| window.kind != WindowKind::Frozen && !window.sides.is_empty())
     {
-        let step = ArrayStep::of(window.start_s, &window.controls);
+        let step = ArrayStep::new(window.start_s, &window.controls);
         let stays = steps.last().is_some_and(|last| ArrayStep { at_s: step.at_s, ..*last } == step);
         if !stays {
             steps.push(step);

@@ -196,7 +196,7 @@ pub(super) fn inputs(
     text
 }
 
-/// What the input table cannot say of the mission's maneuvers, whose dumps and thrusters are parameters there.
+/// Returns the manoeuvres of the mission that the input table cannot express, as dumps and thrusters are parameters there.
 pub(super) fn beyond_inputs(planned: &SimulatedMission, timeline: &MissionTimeline) -> Vec<String> {
     let dumps = planned.values().is_true("maneuver.dump");
     let maneuvers = timeline.thruster_events.iter().filter_map(|(at_s, event)| Some((at_s, event.maneuver?)));

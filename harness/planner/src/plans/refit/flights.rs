@@ -21,7 +21,7 @@ const DUMPS: &str = "dump.count";
 const SOURCE: &str = "attitude.source";
 const STRATEGY: &str = "momentum.strategy";
 const THRESHOLD: &str = "dump.threshold";
-/// Standard deviations that are drawn by a seed, of which a history knows nothing: its flights are without.
+/// Standard deviations that are drawn by a seed: flights of a history are without, as it does not know them.
 const DRAWN: [&str; 5] = [
     "spacecraft.centerOfMassShift[1]",
     "spacecraft.centerOfMassShift[2]",
@@ -57,7 +57,7 @@ impl RefitMission {
         }
         let template = arguments.template.clone();
         let run = Run { fmu: arguments.mission.clone(), template, ..Run::default() };
-        let simulated = Simulated::of(&run)?;
+        let simulated = Simulated::new(&run)?;
         let (fmu, Settings { times, mut sets, inputs, .. }, folder) =
             Settings::of_fmu(&simulated, &format!("a {MODEL}"))?;
         check_plant(&file, fmu.description(), &sets)?;
@@ -107,7 +107,7 @@ impl RefitMission {
         ))
     }
 
-    /// Of one flight over the rows, in s.
+    /// Span of one flight over the rows, in s.
     pub(super) fn span_s(&self, telemetry: &Telemetry) -> f64 {
         telemetry.times_s.last().map_or(0.0, |last_s| last_s - self.start_s)
     }
@@ -185,7 +185,7 @@ fn check_plant(file: &str, description: &Description, sets: &[(String, Value)]) 
     Ok(())
 }
 
-/// What is fitted has one value, and thresholds are off.
+/// Checks that fitted variables have one value, and that thresholds are off.
 fn check_inputs(file: &str, description: &Description, inputs: Option<&InputTable>) -> Result<(), String> {
     let positions = inputs.into_iter().flat_map(InputTable::positions);
     let names = positions.map(|position| &description.variables[position].name);

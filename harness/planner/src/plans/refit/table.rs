@@ -1,4 +1,4 @@
-//! What the fit came to: on the screen, and as a table `[set]`.
+//! Results of the fit: on the screen, and as a table `[set]`.
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ use nalgebra::Vector4;
 
 use crate::refit::{Deviations, Direction, Fitted, Parameters};
 
-/// What was fitted.
+/// Results of the fit.
 pub(super) struct Found<'a> {
     pub mission: String,
     pub telemetry: String,

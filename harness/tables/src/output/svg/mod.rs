@@ -35,11 +35,11 @@ const ECLIPSES: usize = 60;
 
 /// The picture, drawn at the end.
 pub(super) struct Svg {
-    /// The file, of which nothing is written yet.
+    /// Destination, to which nothing is written yet.
     pub file: Destination,
     /// The variables that it shows; `None`: everything recorded.
     pub names: Option<Vec<String>>,
-    /// What is known of them.
+    /// Names and bounds of the variables.
     pub known: Known,
 }
 
@@ -53,7 +53,7 @@ impl Svg {
     }
 }
 
-/// Shades when the Sun was not whole, where that is recorded, in all panels of a chart in units of so many seconds.
+/// Shades the times at which the Sun was not whole, where that is recorded, in all panels of a chart; its unit of time is `seconds`.
 pub fn shade_eclipses(chart: &mut Chart, (described, recording): (&Description, &Recording), seconds: f64) {
     let mut eclipses = eclipses(described, recording, seconds);
     if eclipses.len() > ECLIPSES {
@@ -116,7 +116,7 @@ pub fn chart(described: &Description, recording: &Recording, known: &Known, opti
     (Chart { title, x_label: label, panels, legend, x_names: names }, seconds)
 }
 
-/// The panel of one variable with its line, over an axis in units of so many seconds.
+/// Panel of one variable with its line, over an axis whose unit is `seconds`.
 pub fn panel(described: &Description, recording: &Recording, variable: &str, seconds: f64) -> Option<Panel> {
     // With those that it is large or small against.
     let of_variable = group(variable);
@@ -131,12 +131,12 @@ pub fn panel(described: &Description, recording: &Recording, variable: &str, sec
     })
 }
 
-/// What is drawn together, in the order of the recording.
+/// Groups of variables that are drawn together, in the order of the recording.
 fn groups(described: &Description, recording: &Recording, known: &Known, seconds: f64) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     // The panel of a name and a label that has room for another line.
     let mut with_room: BTreeMap<(String, String), usize> = BTreeMap::new();
-    let (variables, scales) = (by_name(described), Scales::of(described, recording));
+    let (variables, scales) = (by_name(described), Scales::new(described, recording));
     for (name, column) in drawn(&variables, recording) {
         let vector = group(name);
         let variable = variables.get(name).copied();
@@ -322,7 +322,7 @@ fn leave_out_constants(groups: &mut Vec<Group>) -> Vec<String> {
     named
 }
 
-/// Spans in which the Sun is not whole by the recorded part of its disc, in units of so many seconds.
+/// Spans in which the Sun is not whole by the recorded part of its disc, in units of `seconds`.
 fn eclipses(described: &Description, recording: &Recording, seconds: f64) -> Vec<(f64, f64)> {
     let lit: Vec<&String> = described.with_role(VariableRole::LitFraction).map(|it| &it.name).collect();
     let Some(position) = recording.names.iter().position(|name| lit.contains(&name)) else {

@@ -1,7 +1,7 @@
 //! Missions that have a plan, or hold without one; flights that answer more than the model says.
 
 use super::*;
-use crate::momentum::in_force::InForce;
+use crate::momentum::in_force::ActiveControls;
 
 const CENTER_OF_MASS_M: [f64; 3] = [0.01, 0.02, 0.03];
 const DAYS: u32 = 20;
@@ -31,8 +31,8 @@ fn planning_again_within_the_guard_of_the_limit_is_never_worse() {
     let task = task(3.0, all_controls());
     let first = plan(&task, &sunlit, &bare, &mut flies).unwrap();
     assert!(first.holds && !first.is_mission);
-    let own: Vec<InForce> =
-        first.windows.iter().map(|it| InForce { at_s: it.start_s, controls: it.controls }).collect();
+    let own: Vec<ActiveControls> =
+        first.windows.iter().map(|it| ActiveControls { at_s: it.start_s, controls: it.controls }).collect();
     let greatest_n_m_s = first.flight.greatest_momentum().0;
     for from_d in [6.0, 10.5, 14.0] {
         let layout = Layout {
@@ -71,7 +71,7 @@ fn without_a_corridor_the_arrays_stay_where_the_mission_has_them() {
     let limit_n_m_s = 1.1 * torque(best_deg) * f64::from(DAYS) * DAY_S;
     assert!(torque(45.0) * f64::from(DAYS) * DAY_S > 1.2 * limit_n_m_s, "{best_deg}");
     let mut task = task(limit_n_m_s, ControlBounds::default());
-    task.layout.own = vec![InForce { at_s: 0.0, controls: at(best_deg) }];
+    task.layout.own = vec![ActiveControls { at_s: 0.0, controls: at(best_deg) }];
     // As the mission flies.
     let (mut windows, _) = task.layout.windows(&sunlit, &bare).unwrap();
     windows.iter_mut().for_each(|it| it.controls = at(best_deg));

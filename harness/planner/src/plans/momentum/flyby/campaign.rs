@@ -116,7 +116,7 @@ fn dispersed(values: &StartValues<'_>, draw: &Draw, run: u64) -> Vec<(String, Va
     sets
 }
 
-/// What a flight came to.
+/// Outcome of a flight.
 fn outcome(recording: &Recording, lead_s: f64, aimpoint_m: [f64; 2]) -> Result<Outcome, String> {
     let last = |name: &str| -> Result<f64, String> {
         Ok(numbers(recording, name)?.last().copied().unwrap_or(f64::NAN))

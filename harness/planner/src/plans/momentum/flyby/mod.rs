@@ -1,4 +1,4 @@
-//! What a plan with a flyby comes to: reach, velocity changes that would do the same, manoeuvres compared, dispersed flights.
+//! Report of a plan with a flyby: reach, velocity changes that would do the same, manoeuvres compared, dispersed flights.
 
 mod campaign;
 mod compared;
@@ -53,7 +53,7 @@ pub(super) fn check(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<(),
     compared::check(planned, flyby_task)
 }
 
-/// What can be known before the plan.
+/// Report as far as it is known before the plan.
 pub(super) fn before(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<FlybyReport, Failure> {
     let mut simulates = planned;
     let reach = reachable(&planned.task, &planned.sunlit, &planned.simulated, &mut simulates);
@@ -88,7 +88,7 @@ pub(super) fn before(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<Fl
     })
 }
 
-/// What the plan's flight came to, beside manoeuvres and dispersed flights; gives what windows change, as CSV.
+/// Completes the report by the plan's flight, manoeuvres and dispersed flights; returns the partials of the windows as CSV.
 pub(super) fn complete(
     report: &mut FlybyReport,
     file: &PlanFile,
@@ -113,7 +113,7 @@ pub(super) fn complete(
     Ok(String::from_utf8(sensitivity_csv(&found.windows, &by_window)?)?)
 }
 
-/// What a person reads of it.
+/// Summary of the report, in lines.
 pub(super) fn summary(report: &FlybyReport, flyby_task: &FlybyTask) -> Vec<String> {
     let km = |length_m: f64| terminal::short(length_m / 1e3);
     let [arrival_s, osculation_s, altitude_m, excess_m_s] = report.encounter;

@@ -24,7 +24,7 @@ use crate::{
 
 /// The timeline of an updated mission.
 const TIMELINE: &str = "timeline.toml";
-/// What is recorded up to the date.
+/// Variables recorded up to the date.
 const STATE: [&str; 3] = ["position", "velocity", "momentum.body"];
 
 /// When the state of `[update]` holds, in s of the mission as it is.
