@@ -204,8 +204,8 @@ impl PlantState {
         models.digest = last.loads.with_word(*schedules);
         if inputs.source.is_dynamic {
             models.digest = models.digest.with([last.tunables[0]]);
-            let is_pushed = configuration.motion.has_nongravitational_forces();
-            models.digest = models.digest.with(last.force.into_iter().filter(|_| is_pushed));
+            let has_forces = configuration.motion.has_nongravitational_forces();
+            models.digest = models.digest.with(last.force.into_iter().filter(|_| has_forces));
         }
     }
 

@@ -17,7 +17,7 @@ mod survey;
 pub use survey::{Occultation, survey};
 
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 use crate::attitude::control::Estimate;
 use crate::loads::ForceTorque;
@@ -49,11 +49,10 @@ use report::{ReachedState, Report};
 use simulated::Simulated as _;
 
 /// A flight: its state, and apart from it settings and caches, which are not saved.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(transparent)]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(from = "FlightState")]
 pub struct Flight {
     state: FlightState,
-    #[serde(skip)]
     setup: Option<Box<FlightSetup>>,
 }
 
@@ -66,12 +65,23 @@ struct FlightSetup {
     evaluated: Evaluated,
 }
 
+impl From<FlightState> for Flight {
+    fn from(state: FlightState) -> Self {
+        Self { state, setup: None }
+    }
+}
+
+impl Serialize for Flight {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.state.serialize(serializer)
+    }
+}
+
 impl Flight {
     /// Flight that waits for its inputs.
     pub fn waiting(thrusters: Thrusters) -> Self {
         let propagator = PropagatorState::default();
-        let state = FlightState { propagator, thrusters, mode: Mode::Waiting, prediction: None };
-        Self { state, setup: None }
+        FlightState { propagator, thrusters, mode: Mode::Waiting, prediction: None }.into()
     }
 
     /// Rejects decoded states that no flight of this spacecraft can produce.
