@@ -1,7 +1,7 @@
 //! Annotations of a variable (2.2.7) for tools that connect, simulate and draw it: relations to other variables, and roles.
 
 use crate::element::element;
-use crate::{EnumerationItem, InterpolationKind, VariableRole};
+use crate::{InterpolationKind, VariableRole};
 
 /// Name of the tool whose annotations the reader keeps.
 pub const TOOL: &str = "io.github.heliotorque";
@@ -44,12 +44,5 @@ impl Annotation {
     pub fn own_names_mut(&mut self) -> impl Iterator<Item = &mut String> {
         let options = self.read_where.iter_mut().map(|it| &mut it.option);
         self.limited_by.iter_mut().chain(&mut self.rate).chain(options)
-    }
-}
-
-impl ReadWhere {
-    /// Whether the input is read at an item.
-    pub fn is_read_at(&self, item: &EnumerationItem) -> bool {
-        self.items.iter().any(|word| item.is_called(word))
     }
 }

@@ -220,6 +220,11 @@ impl EnumerationItem {
     pub fn is_called(&self, word: &str) -> bool {
         word == self.name || word.parse() == Ok(self.value)
     }
+
+    /// Whether it is one of those that words name.
+    pub fn is_among(&self, words: &[String]) -> bool {
+        words.iter().any(|word| self.is_called(word))
+    }
 }
 
 element! {

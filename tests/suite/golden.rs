@@ -56,7 +56,7 @@ fn annotations_name_what_is_there() {
     }
 }
 
-/// The item that `wire` would set stays where a user chose one.
+/// An option that the file gives has no item for `wire` to set.
 #[test]
 fn an_option_of_the_file_is_nobody_elses_choice() {
     let set = |text: &str| {

@@ -35,7 +35,7 @@ pub fn assignment<'a>(description: &'a Description, text: &'a str) -> Result<Vec
     let Some((name, value)) = text.split_once('=') else {
         return Err(Error::Value {
             variable: text.to_owned(),
-            what: "a setting is written name=value, for example spacecraft.mass=1100kg".to_owned(),
+            what: "a setting is written name=value, for example mass=1100kg".to_owned(),
         });
     };
     let name = name.trim();

@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 
 use fmi::Error;
-use model_description::{Causality, Description, ScalarVariable, VariableKind, start_values, value};
+use model_description::{Causality, Description, ScalarVariable, VariableRole, start_values, value};
 pub use physics::constants::DAY_S;
 use physics::environment::dates;
 
@@ -22,11 +22,6 @@ pub fn date_option(option: &str, written: &str) -> Result<f64, String> {
     dates::epoch_s(written)
         .map_err(|error| format!("{option}: found {written:?}, {error}, allowed: {}", dates::ALLOWED_DATE))
 }
-
-/// The variable that says which epoch the start is.
-pub const START: &str = "start.epoch";
-/// Words in the description of an epoch.
-const SAYS_EPOCH: &str = "past J2000 TDB";
 
 /// From when a parameter counts.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -76,7 +71,7 @@ impl<'a> Dates<'a> {
         let (name, written) = (name.trim(), written.trim());
         let Some(variable) = self.variable(name) else { return Ok(setting.into()) };
         let time = TIMES.iter().find(|(time, _)| component(&variable.name, time).is_some());
-        if time.is_none() && !is_epoch(self.description, variable) {
+        if time.is_none() && !is_epoch(variable) {
             return Ok(setting.into());
         }
         let Err(misfit) = value::read(self.description, variable, written) else { return Ok(setting.into()) };
@@ -100,10 +95,10 @@ impl<'a> Dates<'a> {
     ///
     /// # Errors
     ///
-    /// No `start.epoch`, or components of a system that start at different ones.
+    /// No epoch of the start, or components of a system that start at different ones.
     pub fn simulation_s(&self, epoch_s: f64) -> Result<f64, String> {
-        let starts = self.description.variables.iter().filter(|it| component(&it.name, START).is_some());
-        let epochs = starts.map(|it| self.epoch_s(&it.name).map(|epoch_s| (it.name.as_str(), epoch_s)));
+        let epochs = starts(self.description)
+            .map(|it| self.epoch_s(&it.name).map(|epoch_s| (it.name.as_str(), epoch_s)));
         let epochs: Vec<(&str, f64)> = epochs.collect::<Result<_, String>>()?;
         let [(first, start_epoch_s), others @ ..] = &epochs[..] else { return Err(no_epoch()) };
         match others.iter().find(|(_, other_s)| other_s != start_epoch_s) {
@@ -116,7 +111,9 @@ impl<'a> Dates<'a> {
 
     /// Value of a parameter of this component at an epoch.
     fn time_s(&self, component: &str, since: Since, epoch_s: f64) -> Result<f64, String> {
-        let start_epoch_s = self.epoch_s(&format!("{component}{START}"))?;
+        let start =
+            starts(self.description).find(|it| it.name.starts_with(component)).ok_or_else(no_epoch)?;
+        let start_epoch_s = self.epoch_s(&start.name)?;
         let since_start_s = dates::span_s(start_epoch_s, epoch_s);
         if since == Since::Zero {
             return Ok(self.start_s + since_start_s);
@@ -171,7 +168,7 @@ impl<'a> Dates<'a> {
 }
 
 fn no_epoch() -> String {
-    format!("which nothing counts: there is no {START}, allowed: a time in s or with a unit")
+    "which nothing counts: there is no epoch of the start, allowed: a time in s or with a unit".to_owned()
 }
 
 /// Prefix of a name in a system, with its dot; empty in an FMU.
@@ -179,26 +176,23 @@ fn component<'a>(variable: &'a str, name: &str) -> Option<&'a str> {
     variable.strip_suffix(name).filter(|before| before.is_empty() || before.ends_with('.'))
 }
 
-/// Whether a variable is an epoch: a Real in s past J2000 TDB.
-pub fn is_epoch(description: &Description, variable: &ScalarVariable) -> bool {
-    matches!(variable.kind, VariableKind::Real { .. })
-        && value::unit(description, variable) == Some("s")
-        && variable.description.as_deref().is_some_and(|text| text.contains(SAYS_EPOCH))
+/// Whether a variable is an epoch, in s past J2000 TDB.
+pub fn is_epoch(variable: &ScalarVariable) -> bool {
+    variable.role() == Some(VariableRole::Epoch)
+}
+
+/// The epochs of the start, one of an FMU, in a system those of its components.
+pub fn starts(description: &Description) -> impl Iterator<Item = &ScalarVariable> {
+    let fixed = [Causality::Parameter, Causality::Local];
+    let epochs = description.with_role(VariableRole::Epoch);
+    epochs.filter(move |it| fixed.contains(&it.causality) && value::start(it).is_some())
 }
 
 /// The epoch of time 0 in s past J2000 TDB in a flight from `start_s`, by the epochs that its parameters give, where they are one.
 pub fn zero_epoch_s(description: &Description, sets: &[(String, value::Value)], start_s: f64) -> Option<f64> {
-    let fixed = [Causality::Parameter, Causality::Local];
-    let given = description.variables.iter().filter(|it| fixed.contains(&it.causality));
-    let epochs = given.filter(|it| is_epoch(description, it));
-    let mut epochs_s = epochs.filter_map(|it| start_values::real(description, sets, &it.name));
+    let mut epochs_s = starts(description).filter_map(|it| start_values::real(description, sets, &it.name));
     let first_s = epochs_s.next()?;
     epochs_s.all(|other_s| other_s == first_s).then_some(first_s - start_s)
-}
-
-/// Whether a variable is the epoch of the start, its own or a component's.
-pub fn is_start(name: &str) -> bool {
-    component(name, START).is_some()
 }
 
 /// Whether a parameter of this name is a time that takes a date.

@@ -149,7 +149,7 @@ pub fn vector(name: &str) -> Option<&str> {
 pub fn start_text(description: &Description, variable: &ScalarVariable) -> String {
     match value::start(variable) {
         Some(Value::Real(start)) => {
-            let date = epoch::is_epoch(description, variable).then(|| epoch::date(start)).flatten();
+            let date = epoch::is_epoch(variable).then(|| epoch::date(start)).flatten();
             match (date, fmi::display_unit(description, variable)) {
                 (Some(date), _) => format!("{start} ({date})"),
                 (None, Some((name, factor, offset))) if start != 0.0 => {

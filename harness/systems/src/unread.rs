@@ -47,9 +47,10 @@ pub(crate) fn unread(
             let number = number(&reading.option);
             let Some(item) = items.iter().find(|item| Some(item.value) == number) else { continue };
             // An annotation without an item of this option says nothing of it.
-            let names = items.iter().filter(|item| reading.is_read_at(item)).map(|item| item.name.clone());
+            let names =
+                items.iter().filter(|item| item.is_among(&reading.items)).map(|item| item.name.clone());
             let names: Vec<String> = names.collect();
-            if names.is_empty() || reading.is_read_at(item) {
+            if names.is_empty() || item.is_among(&reading.items) {
                 continue;
             }
             let vector =

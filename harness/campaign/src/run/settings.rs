@@ -10,9 +10,9 @@ use inputs::{
     values::all_names,
     variables::{assigned_by, selected},
 };
-use model_description::Description;
+use model_description::{Description, VariableRole};
 use systems::{FirstExchange, Master};
-use tables::output::{self, OutputFile, Plot, Requested};
+use tables::output::{OutputFile, Plot, Requested};
 
 use super::{options::Run, simulated::Simulated, subject::Subject};
 
@@ -92,7 +92,7 @@ impl Settings {
         // Pictures shade eclipses, whatever they show.
         let lit: Vec<usize> = fmi::outputs(described)
             .into_iter()
-            .filter(|position| output::is_lit_fraction(&described.variables[*position].name))
+            .filter(|position| described.variables[*position].role() == Some(VariableRole::LitFraction))
             .filter(|position| !positions.contains(position))
             .collect();
         if !plots.is_empty() && !lit.is_empty() {

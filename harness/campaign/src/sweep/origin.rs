@@ -135,7 +135,7 @@ pub(super) fn to_toml(
     // Runs that start at different epochs have no common dates.
     let varied = campaign.design.varied();
     let is_varied = |name: &str| varied.iter().any(|it| it.name == name);
-    let is_dated = described.variables.iter().all(|it| !is_varied(&it.name) || !is_epoch(described, it));
+    let is_dated = described.variables.iter().all(|it| !is_varied(&it.name) || !is_epoch(it));
     let epoch_s = epoch::zero_epoch_s(described, &campaign.settings.sets, 0.0).filter(|_| is_dated);
     if let Some(epoch_s) = epoch_s {
         fmu.insert(EPOCH_KEY, toml_edit::value(epoch_s));

@@ -27,6 +27,11 @@ fn aims_and_states_that_cannot_be_are_refused() {
             "flyby: found no whole aim, or two, allowed: either bT and bR, or altitude and angle",
         ),
         (format!("{aim}arrival = \"fixed\"\n"), "flyby.arrival: found fixed without time"),
+        (
+            "[flyby]\nbody = \"mercury\"\narrival = \"fixed\"\ntime = \"2008-10-06 UTC\"\n".to_owned(),
+            "flyby.arrival: found fixed without an aim",
+        ),
+        (format!("every = \"1 s\"\n{aim}"), "every: found \"1 s\", allowed: a time from 1 min on"),
         (format!("{aim}from = \"2020-01-01 UTC\"\n"), ":7: flyby.from: found a time outside of the mission"),
         (format!("{aim}tolerance = 0\n"), ":7: flyby.tolerance: found 0, allowed: a length from 1 m on"),
         (

@@ -446,6 +446,45 @@ fn dispersed_flights_spread_as_the_covariance_says_on_any_number_of_threads() {
     assert!(of_mean < 20.0);
 }
 
+/// A plan without an aim says where the mission passes, by what state that changes, and what a miss costs; nothing is planned. Flights with
+/// other velocities at the start move B as the partials say.
+#[test]
+fn without_an_aim_the_encounter_of_the_mission_is_described() {
+    let Some((_packed, template)) = template() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    flyby(folder, 1, &[]);
+    let text = "mission = \"flyby.toml\"\nfreeze = 0\nevery = \"2 h\"\n[flyby]\nbody = \"mercury\"\n\
+                [compare]\nnext = \"2008-10-06T08:40:00 UTC\"\napproach = []\n";
+    let (file, output) = (folder.join("plan.toml"), folder.join("out"));
+    fs::write(&file, text).unwrap();
+    says(&plan("flyby", &file, &output, &template, 0), &["Mercury, 6 h before closest approach: aim B.T"]);
+    let found = json(&output);
+    assert_eq!((&found["status"], &found["missAfter_m"]), (&"withoutAim".into(), &Value::Null));
+    assert!(!output.join("mission.toml").exists());
+    let departure = &found["maneuvers"]["departure"];
+    let by_miss: Vec<Vec<f64>> = departure["byMiss_1_s"].as_array().unwrap().iter().map(numbers).collect();
+    for (column, key) in ["byT_m_s_km", "byR_m_s_km"].into_iter().enumerate() {
+        let size = by_miss.iter().map(|row| row[column].powi(2)).sum::<f64>().sqrt();
+        assert!((1e3 * size / departure[key].as_f64().unwrap() - 1.0).abs() < 1e-9);
+    }
+    let names = ["time_s", "b_t_m_by_v_x_m_s", "b_r_m_by_v_x_m_s"];
+    let partials = columns(&output.join("partials.csv"), &names);
+    assert_eq!([partials[0][0], partials[1][0]], [0.0, 7200.0]);
+    let velocity = vector(&fs::read_to_string(folder.join("flyby.toml")).unwrap(), "orbit.velocity");
+    let moved_m = [-1e-3, 1e-3].map(|off_m_s| {
+        let set = format!("orbit.velocity={},{},{}", velocity[0] + off_m_s, velocity[1], velocity[2]);
+        passed(&folder.join("flyby.toml"), &template, ("600s", &["--set", &set])).map(|it| 1e3 * it)
+    });
+    for column in [0, 1] {
+        let by_flights = (moved_m[1][column] - moved_m[0][column]) / 2e-3;
+        let by_state = partials[0][1 + column];
+        println!("{by_flights} by flights, {by_state} by partials, m by m/s");
+        // B between rows is linear to 5 m.
+        assert!((by_flights - by_state).abs() < 5e3, "{by_flights} {by_state}");
+    }
+}
+
 /// On the baseline without tilt, no limit on |H|: 260 km along +R is refused with what was reached, which is the paper's reach 111 d before
 /// and within it 40 d before.
 #[test]

@@ -168,9 +168,7 @@ impl Builder<'_> {
             output: description.output.map(|path| self.written_path(&root.key("output"), path)),
             plots: plots.map(|(i, plot)| self.plot(&root.key("plot").item(i), plot)).collect(),
             sets: sets
-                .filter_map(|(name, written)| {
-                    self.set(&root.key("set").key(&name), name, &written, epoch_s.is_some())
-                })
+                .filter_map(|(name, written)| self.set(&root.key("set").key(&name), name, &written))
                 .collect(),
             inputs: description.inputs.and_then(|it| self.inputs(&root.key("inputs"), it.0, epoch_s)),
             limits: limits
@@ -241,16 +239,7 @@ impl Builder<'_> {
         Plot { file, names: plot.names.map(|names| self.names(&place.key("names"), names)) }
     }
 
-    fn set(
-        &mut self,
-        place: &Place<'_>,
-        name: String,
-        written: &Written,
-        is_dated: bool,
-    ) -> Option<At<(String, String)>> {
-        if name.eq_ignore_ascii_case("start.epoch") && is_dated {
-            place.report("start.epoch beside a date in `start`", "one of them");
-        }
+    fn set(&mut self, place: &Place<'_>, name: String, written: &Written) -> Option<At<(String, String)>> {
         let value = self.value(place, written)?;
         Some(self.at(place, (name, value)))
     }

@@ -70,8 +70,8 @@ impl Mission {
     /// Its values as `--set` would take them, the date of its start among them, each with the place that it stands in.
     pub fn settings(&self, described: &Description) -> Vec<(String, String)> {
         let epochs = self.epoch_s.iter().flat_map(|at| {
-            let names = described.variables.iter().map(|it| &it.name).filter(|name| epoch::is_start(name));
-            names.map(move |name| (at.place(&self.file), format!("{name}={}", at.it)))
+            let starts = epoch::starts(described);
+            starts.map(move |it| (at.place(&self.file), format!("{}={}", it.name, at.it)))
         });
         let sets = self.sets.iter().map(|at| (at.place(&self.file), format!("{}={}", at.it.0, at.it.1)));
         epochs.chain(sets).collect()
@@ -115,11 +115,9 @@ impl<'m> Resolver<'m, '_> {
     fn sets(&mut self) -> Vec<(String, Value)> {
         let mut sets = Vec::new();
         if let Some(at) = &self.mission.epoch_s {
-            let names =
-                self.described.variables.iter().map(|it| &it.name).filter(|name| epoch::is_start(name));
-            sets.extend(names.map(|name| (name.clone(), Value::Real(at.it))));
+            sets.extend(epoch::starts(self.described).map(|it| (it.name.clone(), Value::Real(at.it))));
             if sets.is_empty() {
-                let found = format!("found a date, but the FMU has no variable {}", epoch::START);
+                let found = "found a date, but the FMU has no epoch of the start";
                 self.report(at, &format!("{found}, allowed: simulation time, 0 or \"10 d\""));
             }
         }
@@ -131,6 +129,13 @@ impl<'m> Resolver<'m, '_> {
             }
             let (name, written) = &at.it;
             for (variable, value) in self.assigned(at, name, written) {
+                if self.mission.epoch_s.is_some()
+                    && epoch::starts(self.described).any(|it| it.name == variable.name)
+                {
+                    let found = format!("found {} beside a date in `start`", variable.name);
+                    self.report(at, &format!("{found}, allowed: one of them"));
+                    continue;
+                }
                 if fmi::set_early(variable).is_err() {
                     let found = format!("the {} {}", variable.causality, variable.name);
                     self.report(at, &format!("found {found}, allowed: a parameter or an input"));

@@ -16,6 +16,8 @@ pub struct MomentumPlanDescription {
     pub mission: String,
     /// How long from its start the mission stays as it is; "14 d" unless given.
     pub freeze: Option<WrittenAs<Number>>,
+    /// Distance of the points at which momentum and path are looked at; "1 h" unless given, "10 min" in an orbit phase.
+    pub every: Option<WrittenAs<Number>>,
     /// Length of a window; "3 d" unless given.
     pub window: Option<WrittenAs<Number>>,
     /// Limit of the momentum.
@@ -103,7 +105,7 @@ pub struct ActivityDescription {
 }
 
 /// Where the mission is to pass a planet: `bT` and `bR`, or `altitude` and `angle`, where B is that of the
-/// hyperbola that osculates `encounter.leadTime` before the closest approach.
+/// hyperbola that osculates `encounter.leadTime` before the closest approach. Without these nothing is planned.
 #[derive(Debug, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct FlybyDescription {

@@ -10,7 +10,7 @@ use self::encounter::{Compare, Flyby, MonteCarlo, Update};
 use crate::{
     kind::FileKind,
     plan::description::{ActivityDescription, ContactDescription, MomentumPlanDescription},
-    reading::{self, At, Builder, Written},
+    reading::{self, ALLOWED_SPAN, At, Builder, Written},
     values,
 };
 
@@ -34,6 +34,8 @@ pub struct PlanFile {
     pub mission: At<PathBuf>,
     /// Time from the start during which the mission stays as it is.
     pub freeze_s: At<f64>,
+    /// Distance of rows, in s, where it is written.
+    pub every_s: Option<f64>,
     /// Length of a window.
     pub window_s: At<f64>,
     /// Limit of the momentum, where it is written.
@@ -86,6 +88,11 @@ impl PlanFile {
         at.problem(&self.file, what)
     }
 
+    /// Whether it has an aim, or is to say where the mission as it is passes a planet.
+    pub fn has_aim(&self) -> bool {
+        self.flyby.as_ref().is_none_or(|at| at.it.aimpoint.is_some())
+    }
+
     /// Every time that counts by the clock of the mission.
     pub fn instants_mut(&mut self) -> impl Iterator<Item = &mut values::Instant> {
         let flyby = self.flyby.iter_mut().flat_map(|at| [&mut at.it.time, &mut at.it.from]);
@@ -121,6 +128,9 @@ impl Builder<'_> {
             margin.report("margin beside refit", "one of them");
         }
         let freeze_s = self.span(&root.key("freeze"), description.freeze.as_deref(), 14.0 * DAY_S, 0.0);
+        let every = |written: &Written| written.duration_s().filter(|every_s| *every_s >= LEAST_EVERY_S);
+        let allowed = format_args!("a time from 1 min on: {ALLOWED_SPAN}");
+        let every_s = self.read(&root.key("every"), description.every.as_deref(), every, allowed);
         let window_s = self.span(&root.key("window"), description.window.as_deref(), 3.0 * DAY_S, 3600.0);
         let contacts = description.contact.unwrap_or_default();
         let contacts = self.contacts(&root.key("contact"), &contacts);
@@ -139,6 +149,7 @@ impl Builder<'_> {
             file: file.to_owned(),
             mission: self.at(&root.key("mission"), mission),
             freeze_s: self.at(&root.key("freeze"), freeze_s),
+            every_s,
             window_s: self.at(&root.key("window"), window_s),
             limit_n_m_s: self.momentum(&of_momentum.key("limit"), momentum.limit.as_deref()),
             margin: self.share(&margin, momentum.margin.as_deref(), 0.0, 0.99),
@@ -205,6 +216,8 @@ impl Builder<'_> {
     }
 }
 
+/// Least distance of rows, in s.
+const LEAST_EVERY_S: f64 = 60.0;
 const LARGEST_RAD: f64 = 5.0 * core::f64::consts::PI / 180.0;
 const WINDMILL_RAD: f64 = 2.0 * core::f64::consts::PI / 180.0;
 

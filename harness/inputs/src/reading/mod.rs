@@ -21,7 +21,7 @@ pub use written::{Written, WrittenAs};
 
 /// Form of a length, for messages.
 pub const ALLOWED_LENGTH: &str = "a number of m or one with a unit: 2e5, \"200 km\", \"0.5 AU\"";
-const ALLOWED_SPAN: &str = "a number of s or one with a unit: 600, \"12 h\", \"3 d\"";
+pub(crate) const ALLOWED_SPAN: &str = "a number of s or one with a unit: 600, \"12 h\", \"3 d\"";
 /// Form of an angle, for messages.
 pub const ALLOWED_ANGLE: &str = "a number of rad or one with a unit: \"2 deg\"";
 const ALLOWED_MOMENTUM: &str = "a number of N.m.s above 0, or one with that unit: 5.5, \"5.5 N.m.s\"";

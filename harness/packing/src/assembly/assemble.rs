@@ -125,7 +125,8 @@ pub fn assemble(source: &Source, parts: &Parts<'_>) -> Result<Assembled, Box<dyn
     {
         // Dates in the file count from the epoch that the mission starts at.
         let at = parts.origin.map(|mission| epoch.place(&mission.file)).unwrap_or_default();
-        settings.push((at, format!("{}={}", inputs::epoch::START, epoch.it)));
+        let starts = inputs::epoch::starts(&description);
+        settings.extend(starts.map(|it| (at.clone(), format!("{}={}", it.name, epoch.it))));
     }
     if let Some(mission) = parts.origin.filter(|_| parts.mission.is_none()) {
         let own = (&described, &description);

@@ -1,20 +1,26 @@
-//! Results of a plan with a flyby, as members of `plan.json`, as `desired.csv` and as `sensitivity.csv`.
+//! Results of a plan with a flyby, as members of `plan.json`, as `desired.csv`, `sensitivity.csv` and `partials.csv`.
 
 use nalgebra::{Matrix2, Vector2, Vector3};
+use physics::environment::CartesianState;
 use serde_json::{Map, Value, json};
 
 use super::{
     dispersion::Outcome,
     maneuvers::{Maneuver, ellipse},
+    miss::MissCost,
     sensitivity::{DesiredDeltaV, Sensitivity},
 };
 use crate::momentum::{
     attainable::Reachable,
     report::{by_percent, percentiles},
+    simulated::SimulatedFlight,
     target::Moves,
     torque::Control,
     windows::Window,
 };
+
+/// Columns of an encounter.
+const ENCOUNTER: [&str; 3] = ["b_t_m", "b_r_m", "arrival_s"];
 
 /// Manoeuvres that would do what the plan does.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,8 +31,8 @@ pub struct Compared {
     pub departure_s: f64,
     /// Root mean square of it: without any correction, behind the approach manoeuvres, behind the plan, in m/s.
     pub departure_m_s: [f64; 3],
-    /// Departure manoeuvre by m of a miss along T and along R, in m/s.
-    pub by_m_1_s: [f64; 2],
+    /// The departure manoeuvre by a miss.
+    pub cost: MissCost,
 }
 
 /// Dispersed flights.
@@ -158,6 +164,7 @@ fn compared(compared: &Compared) -> Value {
         })
     });
     let [without, behind_approach, behind_plan] = compared.departure_m_s;
+    let by_miss = compared.cost.by_miss_1_s;
     json!({
         "approach": approach.collect::<Vec<_>>(),
         "departure": {
@@ -165,8 +172,9 @@ fn compared(compared: &Compared) -> Value {
             "withoutCorrection_m_s": without,
             "behindApproach_m_s": behind_approach,
             "behindPlan_m_s": behind_plan,
-            "byT_m_s_km": 1e3 * compared.by_m_1_s[0],
-            "byR_m_s_km": 1e3 * compared.by_m_1_s[1],
+            "byMiss_1_s": by_miss.row_iter().map(|row| [row[0], row[1]]).collect::<Vec<_>>(),
+            "byT_m_s_km": 1e3 * by_miss.column(0).norm(),
+            "byR_m_s_km": 1e3 * by_miss.column(1).norm(),
         },
     })
 }
@@ -191,6 +199,27 @@ fn campaign(campaign: &Campaign) -> Value {
     })
 }
 
+/// `partials.csv`: the state at every row of a flight up to the epoch of osculation, EME2000 from the Sun, and B.T, B.R (m) and arrival
+/// (s) by it.
+///
+/// # Errors
+/// What CSV does not take.
+pub fn partials_csv(sensitivity: &Sensitivity, flight: &SimulatedFlight) -> Result<Vec<u8>, csv::Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let state = ["x_m", "y_m", "z_m", "v_x_m_s", "v_y_m_s", "v_z_m_s"];
+    let by_state = ENCOUNTER.iter().flat_map(|row| state.map(|column| format!("{row}_by_{column}")));
+    writer.write_record(["time_s"].into_iter().chain(state).map(str::to_owned).chain(by_state))?;
+    let before = flight.rows.iter().filter(|row| row.time_s <= sensitivity.encounter.epoch_s);
+    for (row, motion) in before.filter_map(|row| Some((row, row.motion?))) {
+        let CartesianState { position_m, velocity_m_s } = motion.from_sun;
+        let by_state = sensitivity.at(row.time_s).transpose();
+        let numbers = [position_m, velocity_m_s].into_iter().flat_map(|vector| <[f64; 3]>::from(vector));
+        let cells = [row.time_s].into_iter().chain(numbers).chain(by_state.iter().copied());
+        writer.write_record(cells.map(|number| number.to_string()))?;
+    }
+    writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+}
+
 /// `sensitivity.csv`: B.T, B.R (m) and arrival (s) of every window by a degree of offset, windmill, azimuth and elevation, by the share of
 /// the alternate attitude, and by a degree of its own azimuth and elevation.
 ///
@@ -207,8 +236,7 @@ pub fn sensitivity_csv(windows: &[Window], by_window: &[Moves]) -> Result<Vec<u8
         "alternate_azimuth_deg",
         "alternate_elevation_deg",
     ];
-    let rows = ["b_t_m", "b_r_m", "arrival_s"];
-    let names = controls.iter().flat_map(|control| rows.map(|row| format!("{row}_by_{control}")));
+    let names = controls.iter().flat_map(|control| ENCOUNTER.map(|row| format!("{row}_by_{control}")));
     writer.write_record(["start_s", "stop_s"].map(str::to_owned).into_iter().chain(names))?;
     for (window, by) in windows.iter().zip(by_window) {
         let numbers = by.by_control.iter().enumerate().flat_map(|(control, by)| {

@@ -158,8 +158,8 @@ pub fn json(
 ///
 /// # Errors
 /// What JSON does not take.
-pub fn out_of_reach_json(mut more: Map<String, Value>) -> Result<String, serde_json::Error> {
-    more.insert("status".to_owned(), json!("notFound"));
+pub fn without_plan_json(status: &str, mut more: Map<String, Value>) -> Result<String, serde_json::Error> {
+    more.insert("status".to_owned(), json!(status));
     serde_json::to_string_pretty(&more)
 }
 

@@ -1,7 +1,9 @@
 //! A flight as the FMU reports it: geometry, attitude, torque and momentum at its communication points.
 
+use core::fmt;
+
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
-use physics::environment::CartesianState;
+use physics::{environment::CartesianState, momentum::Convention};
 
 use super::encountered::Encountered;
 
@@ -13,6 +15,25 @@ pub enum MomentumSize {
     Length,
     /// Its largest component, by which dumps are triggered.
     LargestComponent,
+}
+
+impl From<Convention> for MomentumSize {
+    fn from(convention: Convention) -> Self {
+        match convention {
+            Convention::Inertial => Self::Length,
+            Convention::BodyIntegral => Self::LargestComponent,
+        }
+    }
+}
+
+/// Symbol of the size, as reports print it.
+impl fmt::Display for MomentumSize {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Length => "|H|",
+            Self::LargestComponent => "largest component of H",
+        })
+    }
 }
 
 impl MomentumSize {

@@ -44,8 +44,6 @@ const STEP_S: f64 = 3600.0;
 const ORBIT_STEP_S: f64 = 600.0;
 /// A flight whose last row is nearer to its planet came to it: farther than any goes in such a step.
 const NEAR_M: f64 = 1e8;
-/// A mission's momentum is the physical one.
-const CONVENTION: Convention = Convention::Inertial;
 /// Extent of a mission that is simulated and recorded.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Requested<'a> {
@@ -53,7 +51,7 @@ pub(super) struct Requested<'a> {
     pub sets: &'a [(String, Value)],
     /// Outputs, as `record` of a mission names them.
     pub outputs: &'a [String],
-    /// Distance of communication points, in s; otherwise an hour, in an orbit phase ten minutes.
+    /// Distance of communication points, in s; otherwise the plan's, an hour, in an orbit phase ten minutes.
     pub step_s: Option<f64>,
     /// Rows at these times alone, in s, which grow from the start on; otherwise at communication points.
     pub at_s: Option<&'a [f64]>,
@@ -69,6 +67,8 @@ pub(super) struct SimulatedMission {
     pub inputs: Option<InputTable>,
     /// Its own communication step, in s.
     pub step_s: f64,
+    /// Distance of the rows that plans read, in s, where a plan gives one.
+    pub rows_s: Option<f64>,
     pub start_s: f64,
     pub stop_s: f64,
     /// Epoch of time 0 in s past J2000 TDB, where the mission begins at a date.
@@ -105,6 +105,7 @@ impl SimulatedMission {
             fmu,
             start_s: settings.times.start_s,
             step_s: settings.times.step_s,
+            rows_s: None,
             stop_s: settings.times.stop_s,
             zero_epoch_s: simulated.zero_epoch_s(settings.times.start_s),
             sets: settings.sets,
@@ -199,6 +200,14 @@ impl SimulatedMission {
         self.values().vector("dump.threshold").min()
     }
 
+    /// Convention of its momentum: the physical one, or components that are integrated in the body frame.
+    pub(super) fn convention(&self) -> Convention {
+        match self.values().item("momentum.convention") {
+            Some("bodyIntegral") => Convention::BodyIntegral,
+            _ => Convention::Inertial,
+        }
+    }
+
     /// Whether downlinks alternate with science; else it is in cruise, downlink throughout.
     pub(super) fn is_in_orbit(&self) -> bool {
         self.values().item("guided.phase") == Some("orbit")
@@ -221,7 +230,7 @@ impl SimulatedMission {
 
     /// The spacecraft in sunlight with the mission's values, the centre of mass as it is at each time.
     pub(super) fn sunlit(&self, timeline: Option<&Timeline>) -> Result<SunlitSpacecraft, Failure> {
-        let mut sunlit = plant::sunlit(spacecraft_of(&self.fmu)?, &self.values(), CONVENTION)?;
+        let mut sunlit = plant::sunlit(spacecraft_of(&self.fmu)?, &self.values(), self.convention())?;
         if let Some(timeline) = timeline {
             let clock_minus_time_s = self.clock_minus_time_s(timeline);
             let moved = timeline.events.iter().filter_map(|event| {
@@ -234,12 +243,12 @@ impl SimulatedMission {
 
     /// Simulates it without dumps by thresholds; with a seed, by its own.
     pub(super) fn simulate(&self, seed: Option<u32>) -> Result<SimulatedFlight, Failure> {
-        let description = self.fmu.description();
+        let (description, convention) = (self.fmu.description(), self.convention());
         let panels = (0..).map(plant::panel);
         let panels = panels.take_while(|name| description.variables.iter().any(|it| it.name == *name));
         let panels: Vec<String> = panels.collect();
         let mut patterns = panels.clone();
-        patterns.extend(plant::recorded(CONVENTION).map(str::to_owned));
+        patterns.extend(plant::recorded(convention).map(str::to_owned));
         if self.has_encounter() {
             patterns.extend(plant::RECORDED_MOTION.map(str::to_owned));
         }
@@ -253,7 +262,7 @@ impl SimulatedMission {
         let requested = Requested { sets: &sets, outputs: &patterns, ..Requested::default() };
         let (recording, ended) = self.record_until(&requested)?;
         let column = |name: &str| recording.column(name).map(|column| column.numbers());
-        let flight = plant::flight(&recording.times_s, &column, (panels.len(), CONVENTION));
+        let flight = plant::flight(&recording.times_s, &column, (panels.len(), convention));
         let Some(why) = ended else { return Ok(flight?) };
         // A path into the planet of the encounter: a plan, or another departure, may lead past it.
         let last = flight.ok().filter(|flight| {
@@ -286,7 +295,9 @@ impl SimulatedMission {
         let options = Options {
             start_s: Some(self.start_s),
             stop_s: Some(stop_s),
-            step_s: Some(requested.step_s.unwrap_or(step_s).min((stop_s - self.start_s) / 8.0)),
+            step_s: Some(
+                requested.step_s.or(self.rows_s).unwrap_or(step_s).min((stop_s - self.start_s) / 8.0),
+            ),
             sets: [&self.sets, requested.sets].concat(),
             inputs: self.inputs.as_ref(),
             record: Some(selected(description, requested.outputs, fmi::select_outputs)?),

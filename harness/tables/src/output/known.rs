@@ -14,20 +14,11 @@ use physics::{
     spin::spinner::Spinner,
 };
 
-/// Quantities, the parameters that are their bound either way, and what the picture calls these; `*` stands for the same number
-/// in both.
-const BOUNDS: [(&str, &str, &str); 4] = [
-    ("momentum.body[*]", "dump.threshold[*]", "dump.threshold"),
-    ("wheel[*].momentum", "wheel[*].capacity", "capacity"),
-    ("sun.azimuth", "keepIn.azimuth", "keepIn.azimuth"),
-    ("sun.elevation", "keepIn.elevation", "keepIn.elevation"),
-];
-
 /// Names and bounds.
 #[derive(Clone, Debug, Default)]
 pub struct Known {
     names: BTreeMap<String, String>,
-    bounds: BTreeMap<String, (&'static str, f64)>,
+    bounds: BTreeMap<String, (String, f64)>,
     limits: BTreeMap<String, Vec<f64>>,
     /// Epoch of time 0 in s past J2000 TDB, where the flight has dates.
     pub zero_epoch_s: Option<f64>,
@@ -47,15 +38,12 @@ impl Known {
             for (counted, name) in names_in(folder) {
                 known.names.insert(format!("{prefix}{counted}"), name);
             }
-            for variable in &described.variables {
-                let Some(own) = variable.name.strip_prefix(prefix.as_str()) else { continue };
-                let bound = BOUNDS.into_iter().find_map(|(quantity, bound, label)| {
-                    let named = bound.replace('*', number_in(own, quantity)?);
-                    Some((label, variables::real(described, sets, &format!("{prefix}{named}"))?))
-                });
-                if let Some(bound) = bound.filter(|(_, value)| *value > 0.0) {
-                    known.bounds.insert(variable.name.clone(), bound);
-                }
+        }
+        for variable in &described.variables {
+            let bound = variable.annotation.as_ref().and_then(|it| it.limited_by.as_ref());
+            let bound = bound.and_then(|name| Some((name, variables::real(described, sets, name)?)));
+            if let Some((name, value)) = bound.filter(|(_, value)| *value > 0.0) {
+                known.bounds.insert(variable.name.clone(), (bound_label(&variable.name, name), value));
             }
         }
         let labels = labels::of_groups(described).into_iter();
@@ -80,8 +68,8 @@ impl Known {
     }
 
     /// Returns the bound of a variable in both directions: its name, and its value in the variable's unit.
-    pub fn bound(&self, variable: &str) -> Option<(&'static str, f64)> {
-        self.bounds.get(variable).copied()
+    pub fn bound(&self, variable: &str) -> Option<(&str, f64)> {
+        self.bounds.get(variable).map(|(label, value)| (label.as_str(), *value))
     }
 
     /// The limits that the mission sets it, in its unit.
@@ -90,15 +78,11 @@ impl Known {
     }
 }
 
-/// Returns the text for `*` where a name is the quantity; empty without a `*`.
-fn number_in<'a>(name: &'a str, quantity: &str) -> Option<&'a str> {
-    match quantity.split_once('*') {
-        Some((before, after)) => name
-            .strip_prefix(before)?
-            .strip_suffix(after)
-            .filter(|number| number.bytes().all(|byte| byte.is_ascii_digit())),
-        None => (name == quantity).then_some(""),
-    }
+/// Returns the name of a bound in a picture: without what it has in common with the variable, and without the index of an element.
+fn bound_label(variable: &str, bound: &str) -> String {
+    let shared = variable.bytes().zip(bound.bytes()).take_while(|(one, other)| one == other).count();
+    let own = bound[..shared].rfind('.').map_or(bound, |dot| &bound[dot + 1..]);
+    variables::vector(own).unwrap_or(own).to_owned()
 }
 
 /// Panels, wheels, thrusters and tanks of the spacecraft in an FMU's resources, if there is one.
@@ -138,7 +122,8 @@ mod tests {
   <CoSimulation modelIdentifier="Plant"/>
   <ModelVariables>
     <ScalarVariable name="p.dump.threshold[2]" valueReference="0" causality="parameter" variability="fixed"><Real start="4"/></ScalarVariable>
-    <ScalarVariable name="p.momentum.body[2]" valueReference="1" causality="output"><Real/></ScalarVariable>
+    <ScalarVariable name="p.momentum.body[2]" valueReference="1" causality="output"><Real/>
+      <Annotations><Tool name="io.github.heliotorque"><Variable limitedBy="p.dump.threshold[2]"/></Tool></Annotations></ScalarVariable>
     <ScalarVariable name="p.wheel[1].speed" valueReference="2" causality="output"><Real/></ScalarVariable>
     <ScalarVariable name="p.plate[7].temperature" valueReference="3" causality="output" description="lid: Temperature."><Real/></ScalarVariable>
     <ScalarVariable name="p.plate[7].force[1]" valueReference="4" causality="output" description="lid: Force of sunlight."><Real/></ScalarVariable>
@@ -167,6 +152,8 @@ mod tests {
         assert_eq!(known.bound("p.momentum.body[2]"), Some(("dump.threshold", 4.0)));
         assert_eq!(known.bound("p.wheel[1].speed"), None);
         assert_eq!(known.limits("p.wheel[1].speed"), [3.0]);
+        assert_eq!(bound_label("p.wheel[2].momentum", "p.wheel[2].capacity"), "capacity");
+        assert_eq!(bound_label("sun.azimuth", "keepIn.azimuth"), "keepIn.azimuth");
         let set = [("p.dump.threshold[2]".to_owned(), Value::Real(7.0))];
         let set = Known::new(&parts, &description, &set, &[]);
         assert_eq!(set.bound("p.momentum.body[2]"), Some(("dump.threshold", 7.0)));

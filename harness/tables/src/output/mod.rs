@@ -35,7 +35,7 @@ pub use known::Known;
 pub use limits::LimitChecks;
 pub use origin::{EPOCH_KEY, Origin};
 pub use standing::{OutputKind, check as check_standing};
-pub use svg::{chart, is_lit_fraction, leave_out, panel, shade_eclipses};
+pub use svg::{chart, leave_out, panel, shade_eclipses};
 pub use time_axis::TimeAxis;
 pub use visit::Visit;
 pub use visit_table::{VisitTable, open_visits};

@@ -15,8 +15,6 @@ pub(super) const HEAD: &str =
 
 /// The key of an FMU's epoch at the start.
 pub const EPOCH_KEY: &str = "epoch_s_past_j2000_tdb";
-/// The epoch of the start.
-const EPOCH: &str = "start.epoch";
 
 /// Origin of a table.
 pub struct Origin<'a> {
@@ -78,7 +76,9 @@ impl Origin<'_> {
         for (key, text) in [("version", &description.version), ("made_by", &description.generation_tool)] {
             text.iter().for_each(|text| set(key, text));
         }
-        if let Some(epoch_s) = variables::real(self.described, self.sets, &format!("{prefix}{EPOCH}")) {
+        let start = epoch::starts(description).next();
+        let start = start.map(|it| format!("{prefix}{}", it.name));
+        if let Some(epoch_s) = start.and_then(|name| variables::real(self.described, self.sets, &name)) {
             // Of the start.
             if let Some(date) = epoch::date(epoch_s) {
                 table.insert("epoch", toml_edit::value(date));
@@ -121,6 +121,9 @@ impl Origin<'_> {
                 items.iter().map(|item| (item.name.as_str(), i64::from(item.value))).collect();
             column.insert("items", items.into());
         }
+        if let Some(role) = variable.role() {
+            column.insert("role", role.as_str().into());
+        }
         if let Some(description) = &variable.description {
             column.insert("description", description.as_str().into());
         }
@@ -138,7 +141,7 @@ mod tests {
   <UnitDefinitions><Unit name="N.m.s"><DisplayUnit name="mN.m.s" factor="1000"/></Unit><Unit name="s"/></UnitDefinitions>
   <TypeDefinitions><SimpleType name="Mode"><Enumeration><Item name="nadir" value="1"/><Item name="safe" value="4"/></Enumeration></SimpleType></TypeDefinitions>
   <ModelVariables>
-    <ScalarVariable name="start.epoch" valueReference="0" causality="parameter" variability="fixed"><Real unit="s" start="0"/></ScalarVariable>
+    <ScalarVariable name="start.epoch" valueReference="0" causality="parameter" variability="fixed"><Real unit="s" start="0"/><Annotations><Tool name="io.github.heliotorque"><Variable role="epoch"/></Tool></Annotations></ScalarVariable>
     <ScalarVariable name="momentum[2]" valueReference="1" causality="output" description="System &quot;momentum&quot;."><Real unit="N.m.s" displayUnit="mN.m.s"/></ScalarVariable>
     <ScalarVariable name="mode" valueReference="2" causality="output" variability="discrete"><Enumeration declaredType="Mode"/></ScalarVariable>
     <ScalarVariable name="mode.start" valueReference="3" causality="parameter" variability="fixed"><Enumeration declaredType="Mode" start="1"/></ScalarVariable>
@@ -161,7 +164,7 @@ mod tests {
             sets: &sets,
             input: None,
         };
-        let text = origin.to_toml(&["momentum[2]".to_owned(), "mode".to_owned()]);
+        let text = origin.to_toml(&["momentum[2]", "mode", "start.epoch"].map(str::to_owned));
         assert!(text.starts_with(HEAD));
         let read: toml::Table = text.parse().unwrap();
         assert_eq!(read["step_s"].as_float(), Some(10.0));
@@ -175,6 +178,7 @@ mod tests {
         let display = &column["display"];
         assert_eq!((display["unit"].as_str(), display["factor"].as_float()), (Some("mN.m.s"), Some(1000.0)));
         assert_eq!(column["description"].as_str(), Some("System \"momentum\"."));
+        assert_eq!(read["columns"]["start.epoch"]["role"].as_str(), Some("epoch"));
         assert_eq!(read["columns"]["mode"]["items"]["safe"].as_integer(), Some(4));
     }
 }

@@ -41,7 +41,7 @@ impl<'a> Shown<'a> {
         let own = fmi::unit(description, variable).unwrap_or_default();
         let says_none = variable.description.as_deref().is_some_and(|text| text.contains(NONE));
         let is_time = matches!(variable.kind, VariableKind::Real { .. }) && own == "s";
-        let is_epoch = epoch::is_epoch(description, variable);
+        let is_epoch = epoch::is_epoch(variable);
         // Seconds stand beside a date.
         let display = fmi::display_unit(description, variable).filter(|_| !is_epoch);
         let (unit, factor, offset) = display.unwrap_or((own, 1.0, 0.0));

@@ -19,7 +19,7 @@ pub fn single(table: &Table, sidecar: &Sidecar, patterns: &[String]) -> Result<C
     let Described { description, recording } = Described::new(table, sidecar);
     let known = Known::default().dated(sidecar.zero_epoch_s);
     let (mut chart, seconds) = chart(&description, &recording.only(&names), &known, "--names");
-    shade_eclipses(&mut chart, &recording, seconds);
+    shade_eclipses(&mut chart, (&description, &recording), seconds);
     Ok(chart)
 }
 

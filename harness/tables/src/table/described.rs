@@ -3,8 +3,8 @@
 use fmi::reference::Cell;
 use fmi::{Column, Recording};
 use model_description::{
-    Description, DisplayUnit, EnumerationItem, RealAttributes, ScalarVariable, SimpleType, SimpleTypeKind,
-    Unit, VariableKind,
+    Annotation, Description, DisplayUnit, EnumerationItem, RealAttributes, ScalarVariable, SimpleType,
+    SimpleTypeKind, Unit, VariableKind,
 };
 
 use super::{
@@ -35,6 +35,9 @@ impl Described {
                 name: name.clone(),
                 description: quantity.and_then(|it| it.description.clone()),
                 kind,
+                annotation: quantity
+                    .and_then(|it| it.role)
+                    .map(|role| Box::new(Annotation { role: Some(role), ..Annotation::default() })),
                 ..ScalarVariable::default()
             });
             recording.names.push(name.clone());

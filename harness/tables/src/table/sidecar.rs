@@ -2,6 +2,8 @@
 
 use std::{collections::BTreeMap, io::ErrorKind, path::Path};
 
+use model_description::VariableRole;
+
 use crate::output::EPOCH_KEY;
 
 /// Metadata of a table's columns.
@@ -30,6 +32,8 @@ pub struct Quantity {
     pub items: Vec<(String, i32)>,
     /// In words.
     pub description: Option<String>,
+    /// Role by the FMU's annotation.
+    pub role: Option<VariableRole>,
 }
 
 impl Sidecar {
@@ -105,7 +109,8 @@ fn quantity(column: &toml::Value) -> Quantity {
     });
     let items = column.get("items").and_then(toml::Value::as_table).into_iter().flatten();
     let items = items.filter_map(|(name, value)| Some((name.clone(), value.as_integer()?.try_into().ok()?)));
-    Quantity { unit: text("unit"), display, items: items.collect(), description: text("description") }
+    let role = text("role").and_then(|role| VariableRole::from_word(&role));
+    Quantity { unit: text("unit"), display, items: items.collect(), description: text("description"), role }
 }
 
 #[cfg(test)]
@@ -123,6 +128,7 @@ mod tests {
             epoch_s_past_j2000_tdb = 510.5
             [columns]
             time = { unit = "s" }
+            lit = { role = "litFraction" }
             angle = { unit = "rad", display = { unit = "deg", factor = 57.0 } }
             mode = { items = { nadir = 1, safe = 4 }, description = "Mode." }
             "#
@@ -131,6 +137,7 @@ mod tests {
         );
         assert_eq!((run.title.as_deref(), run.zero_epoch_s), (Some("Plant"), Some(500.5)));
         assert_eq!(run.columns["angle"].display, Some(("deg".to_owned(), 57.0, 0.0)));
+        assert_eq!(run.columns["lit"].role, Some(VariableRole::LitFraction));
         assert_eq!(run.columns["mode"].items, [("nadir".to_owned(), 1), ("safe".to_owned(), 4)]);
         assert_eq!(
             (run.labelled("angle"), run.labelled("mode")),

@@ -24,8 +24,8 @@ const APPROACH_S: f64 = -42.0 * DAY_S;
 pub struct Flyby {
     /// Name of the planet.
     pub body: At<String>,
-    /// Aimpoint of the encounter.
-    pub aimpoint: At<FlybyAimpoint>,
+    /// Aim; without one the encounter of the mission as it is is described, and nothing is planned.
+    pub aimpoint: Option<At<FlybyAimpoint>>,
     /// When the spacecraft arrives, where that is a goal.
     pub time: Option<At<values::Instant>>,
     /// Time from which the plan may change the mission.
@@ -94,6 +94,7 @@ impl Builder<'_> {
                 }
                 Some((FlybyAimpoint::Altitude { altitude_m, angle_rad }, "altitude"))
             }
+            (None, None, None, None) => None,
             _ => {
                 place.report("no whole aim, or two", "either bT and bR, or altitude and angle");
                 None
@@ -126,10 +127,12 @@ impl Builder<'_> {
         if let Some(written) = flyby.tolerance.as_deref().filter(|_| tolerance_m < MIN_TOLERANCE_M) {
             tolerance.report(written, "a length from 1 m on");
         }
-        let (aimpoint, key) = aimpoint?;
+        if aimpoint.is_none() && is_fixed {
+            arrival.report("fixed without an aim", "bT and bR, or altitude and angle, beside it");
+        }
         Some(Flyby {
             body: self.at(&place.key("body"), flyby.body),
-            aimpoint: self.at(&place.key(key), aimpoint),
+            aimpoint: aimpoint.map(|(aimpoint, key)| self.at(&place.key(key), aimpoint)),
             time,
             from,
             tolerance_m,

@@ -1,6 +1,6 @@
 //! What is written wins, and the rest of the file stays.
 
-use model_description::RealAttributes;
+use model_description::{Annotation, RealAttributes, VariableRole};
 
 use super::*;
 
@@ -17,6 +17,10 @@ fn description() -> Description {
         variables.concat()
     );
     model_description::parse(xml.as_bytes()).unwrap().description
+}
+
+fn epoch() -> Option<Box<Annotation>> {
+    Some(Box::new(Annotation { role: Some(VariableRole::Epoch), ..Annotation::default() }))
 }
 
 fn written(text: &str, sets: &[&str]) -> String {
@@ -43,10 +47,10 @@ fn the_table_is_made_or_added_to() {
 #[test]
 fn an_epoch_takes_a_date() {
     let mut description = description();
-    let epoch = &mut description.variables[0];
-    epoch.name = "start.epoch".to_owned();
-    epoch.description = Some("Epoch, seconds past J2000 TDB.".to_owned());
-    if let VariableKind::Real { attributes, .. } = &mut epoch.kind {
+    let start = &mut description.variables[0];
+    start.name = "start.epoch".to_owned();
+    start.annotation = epoch();
+    if let VariableKind::Real { attributes, .. } = &mut start.kind {
         *attributes = RealAttributes { unit: Some("s".to_owned()), ..RealAttributes::default() };
     }
     let written = |set: &str| with_values("", START, "Plant", &description, &settings(&[set]));
@@ -59,17 +63,13 @@ fn an_epoch_takes_a_date() {
 #[test]
 fn a_time_takes_a_date_that_counts_from_the_epoch_set_beside_it() {
     let mut description = description();
-    for (variable, (name, says)) in description.variables.iter_mut().zip([
-        ("start.epoch", "Epoch, seconds past J2000 TDB."),
-        ("burn.start", "Time."),
-        ("arm[2]", ""),
-    ]) {
+    for (variable, name) in description.variables.iter_mut().zip(["start.epoch", "burn.start", "arm[2]"]) {
         variable.name = name.to_owned();
-        variable.description = Some(says.to_owned());
         if let VariableKind::Real { attributes, .. } = &mut variable.kind {
             *attributes = RealAttributes { unit: Some("s".to_owned()), ..RealAttributes::default() };
         }
     }
+    description.variables[0].annotation = epoch();
     let written = |sets: &[&str]| with_values("", START, "Plant", &description, &settings(sets));
     let text = written(&["burn.start=2009-04-06T02:00:00 TDB", "start.epoch=2009-04-06 TDB"]).unwrap();
     assert_eq!(text, "[start]\n\"burn.start\" = 7200.0\n\"start.epoch\" = 292248000.0\n");
@@ -80,10 +80,10 @@ fn a_time_takes_a_date_that_counts_from_the_epoch_set_beside_it() {
     );
     let refused = written(&["burn.start=2009-04-06"]).unwrap_err().to_string();
     assert!(refused.contains("does not end in UTC, Z, TDB, TT or TAI"), "{refused}");
-    description.variables[0].name = "other".to_owned();
+    description.variables[0].annotation = None;
     let refused = with_values("", START, "Plant", &description, &settings(&["burn.start=2009-04-06 TDB"]));
     let refused = refused.unwrap_err().to_string();
-    assert!(refused.contains("no start.epoch"), "{refused}");
+    assert!(refused.contains("no epoch of the start"), "{refused}");
 }
 
 #[test]

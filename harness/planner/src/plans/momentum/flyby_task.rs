@@ -66,9 +66,10 @@ impl FlybyTask {
         let radius_m = values.real("planet.radius");
         let excess_m_s = first.encounter.plane.excess_speed_m_s;
         let gm_m3_s2 = force_model.gm_m3_s2;
-        let b_m = match flyby.aimpoint.it {
-            FlybyAimpoint::Plane { b_t_m, b_r_m } => [b_t_m, b_r_m],
-            FlybyAimpoint::Altitude { altitude_m, angle_rad } => {
+        let b_m = match flyby.aimpoint.as_ref().map(|at| at.it) {
+            None => [first.encounter.plane.b_t_m, first.encounter.plane.b_r_m],
+            Some(FlybyAimpoint::Plane { b_t_m, b_r_m }) => [b_t_m, b_r_m],
+            Some(FlybyAimpoint::Altitude { altitude_m, angle_rad }) => {
                 // From the osculation on tides change B: by as much as in the flight of the mission as it is.
                 let simulated_m = first.encounter.plane.b_t_m.hypot(first.encounter.plane.b_r_m);
                 let [aimed_m, passed_m] = [radius_m + altitude_m, first.encounter.closest.position_m.norm()]
@@ -78,7 +79,7 @@ impl FlybyTask {
             }
         };
         let periapsis_m = periapsis_of_b_m(b_m[0].hypot(b_m[1]), gm_m3_s2, excess_m_s);
-        if periapsis_m < radius_m {
+        if let Some(at) = flyby.aimpoint.as_ref().filter(|_| periapsis_m < radius_m) {
             let what = format!(
                 "found B of {:.1} and {:.1} km along T and R, whose periapsis lies {:.1} km inside of {}, allowed: from {:.1} km on",
                 b_m[0] / 1e3,
@@ -87,7 +88,7 @@ impl FlybyTask {
                 force_model.body.data().name,
                 b_of_periapsis_m(radius_m, gm_m3_s2, excess_m_s) / 1e3,
             );
-            return Err(file.problem(&flyby.aimpoint, &what).into());
+            return Err(file.problem(at, &what).into());
         }
         let aimpoint = BPlaneAimpoint { b_m, arrival_s };
         Ok(Self { force_model, aimpoint, tolerance_m: flyby.tolerance_m, radius_m, first })

@@ -36,7 +36,6 @@ use crate::{
         Limit,
         plan::{Least, MomentumPlan, PlanError, PlanTask, PlannedDump, plan},
         report::{self, PlanEvent},
-        simulated::MomentumSize,
         windows::{Window, WindowKind},
     },
 };
@@ -99,7 +98,7 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
     let momentum_n_m_s = file.limit_n_m_s.unwrap_or_else(|| mission.least_threshold_n_m_s());
     let limit = Limit {
         momentum_n_m_s,
-        size: MomentumSize::Length,
+        size: mission.convention().into(),
         margin: file.margin,
         covariance: refit.map(|it| Matrix4::from(it.covariance).transpose()),
     };
@@ -167,6 +166,9 @@ pub fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
     if let Some(flyby_task) = &planned.flyby_task {
         flyby::check(&planned, flyby_task)?;
     }
+    if let Some(flyby_task) = planned.flyby_task.as_ref().filter(|_| !file.has_aim()) {
+        return describe(&planned, flyby_task);
+    }
     let encounter =
         planned.flyby_task.as_ref().map(|it| Ok::<_, Failure>((flyby::before(&planned, it)?, it)));
     let mut encounter = encounter.transpose()?;
@@ -208,10 +210,11 @@ pub fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
     let seeds = planned.simulate_seeds(&found.windows, &found.dumps)?;
     let mut of_flyby = Vec::new();
     if let Some((report, flyby_task)) = &mut encounter {
-        let sensitivity = flyby::complete(report, file, (&planned, flyby_task), &found)?;
+        let [sensitivity, partials] = flyby::complete(report, file, (&planned, flyby_task), &found)?;
         of_flyby = vec![
             (flyby::NAMES[0], String::from_utf8(report.desired_csv()?)?),
             (flyby::NAMES[1], sensitivity),
+            (flyby::NAMES[2], partials),
         ];
     }
     let chart = picture::chart(&planned.sunlit.spacecraft.name, &found, &planned.task);
@@ -253,12 +256,27 @@ pub fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
     Ok(if is_planned { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
+/// Writes where the mission as it is passes its planet, for a plan without an aim.
+fn describe(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Outcome {
+    let report = flyby::without_aim(planned, flyby_task)?;
+    let json = report::without_plan_json("withoutAim", report.members())?;
+    let partials = flyby::first_partials(planned, flyby_task)?;
+    write(planned, &[(NAMES[5], json), (flyby::NAMES[2], partials)])?;
+    if !planned.options.quiet {
+        terminal::print(&flyby::summary(&report, flyby_task).join("\n"))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
 /// Writes what there is of a plan whose aimpoint is out of reach.
 fn refuse(planned: &Planned<'_>, (report, flyby_task): (&FlybyReport, &FlybyTask)) -> Outcome {
     let picture = drawn(None, Some((report, flyby_task)))?;
-    let json = report::out_of_reach_json(report.members())?;
+    let json = report::without_plan_json("notFound", report.members())?;
     let desired = String::from_utf8(report.desired_csv()?)?;
-    write(planned, &[(NAMES[4], picture), (NAMES[5], json), (flyby::NAMES[0], desired)])?;
+    let partials = flyby::first_partials(planned, flyby_task)?;
+    let contents =
+        [(NAMES[4], picture), (NAMES[5], json), (flyby::NAMES[0], desired), (flyby::NAMES[2], partials)];
+    write(planned, &contents)?;
     if !planned.options.quiet {
         terminal::print(&flyby::summary(report, flyby_task).join("\n"))?;
     }
@@ -333,11 +351,12 @@ fn summary(
     let day = |time_s: f64| (time_s - start_s) / DAY_S;
     let [most_planned, most_simulated] = found.greatest_n_m_s();
     let limit = planned.task.limit.momentum_n_m_s;
-    let (unmanaged, _) = planned.simulated.greatest_momentum();
+    let size = planned.task.limit.size;
+    let (unmanaged, _) = planned.simulated.greatest(size);
     let mut lines = vec![
-        format!("|H| as the mission is: {unmanaged:.3} N.m.s"),
+        format!("{size} as the mission is: {unmanaged:.3} N.m.s"),
         format!(
-            "|H| planned {most_planned:.3}, simulated {most_simulated:.3}, limit {limit:.3} N.m.s; flight and plan differ by {:.4} at most, \
+            "{size} planned {most_planned:.3}, simulated {most_simulated:.3}, limit {limit:.3} N.m.s; flight and plan differ by {:.4} at most, \
              {:.2} % of the limit, after {} flight{}",
             found.difference_n_m_s(),
             100.0 * found.difference_n_m_s() / limit,
@@ -397,7 +416,7 @@ fn summary(
         let [momentum, dumps] = report::of_seeds(seeds);
         let all = |of: [f64; 3]| of.map(terminal::short).join(", ");
         lines.push(format!(
-            "{} seeds: |H| {} N.m.s, dumps {} (50, 90, 99 %)",
+            "{} seeds: {size} {} N.m.s, dumps {} (50, 90, 99 %)",
             seeds.len(),
             all(momentum),
             all(dumps)

@@ -91,7 +91,9 @@ impl Planned<'_> {
             folder.write(name, text)?;
         }
         let template = self.options.template.as_deref();
-        Ok((SimulatedMission::open(&folder.path().join(NAMES[1]), template, &[])?, folder))
+        let mut mission = SimulatedMission::open(&folder.path().join(NAMES[1]), template, &[])?;
+        mission.rows_s = self.mission.rows_s;
+        Ok((mission, folder))
     }
 
     /// Simulates a plan.
@@ -123,7 +125,7 @@ impl Planned<'_> {
         let flights = (1..=self.options.seeds).map(|seed| {
             let flight = mission.simulate(Some(seed))?;
             bar.inc(1);
-            Ok((flight.greatest_momentum().0, flight.rows.last().map_or(0, |row| row.dumps)))
+            Ok((flight.greatest(self.task.limit.size).0, flight.rows.last().map_or(0, |row| row.dumps)))
         });
         let flights = flights.collect();
         bar.finish_and_clear();

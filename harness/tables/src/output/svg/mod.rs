@@ -9,7 +9,7 @@ use std::{
 use drawing::{COLOURS, Chart, Mark, Panel, Series};
 use files::Destination;
 use fmi::{Column, Recording};
-use model_description::{Causality, Description, ScalarVariable, value};
+use model_description::{Causality, Description, ScalarVariable, VariableRole, value};
 
 use super::{
     exporter::Exporter,
@@ -48,14 +48,14 @@ impl Svg {
         let only = self.names.as_ref().map(|names| recording.only(names));
         let recorded = only.as_ref().unwrap_or(recording);
         let (mut chart, seconds) = chart(described, recorded, &self.known, "--record");
-        shade_eclipses(&mut chart, recording, seconds);
+        shade_eclipses(&mut chart, (described, recording), seconds);
         Ok(drawing::svg(&[&chart])?)
     }
 }
 
 /// Shades the times at which the Sun was not whole, where that is recorded, in all panels of a chart; its unit of time is `seconds`.
-pub fn shade_eclipses(chart: &mut Chart, recording: &Recording, seconds: f64) {
-    let mut eclipses = eclipses(recording, seconds);
+pub fn shade_eclipses(chart: &mut Chart, (described, recording): (&Description, &Recording), seconds: f64) {
+    let mut eclipses = eclipses(described, recording, seconds);
     if eclipses.len() > ECLIPSES {
         terminal::note(&format!("{} eclipses, so not shaded", eclipses.len()));
         eclipses.clear();
@@ -178,7 +178,7 @@ struct Group {
     name: String,
     panel: Panel,
     /// Marks that are drawn only near the lines, with what they are.
-    bounds: Vec<(&'static str, f64)>,
+    bounds: Vec<(String, f64)>,
     scale: Scale,
 }
 
@@ -198,7 +198,7 @@ impl Group {
 
     fn add(&mut self, series: Series, known: &Known, shown: impl Fn(f64) -> f64) {
         if let Some((what, value)) = known.bound(&series.label) {
-            self.bounds.extend([-value, value].map(|value| (what, shown(value))));
+            self.bounds.extend([-value, value].map(|value| (what.to_owned(), shown(value))));
         }
         self.panel.marks.extend(known.limits(&series.label).iter().map(|value| shown(*value)));
         self.panel.is_whole &= series.mark == Mark::Steps;
@@ -257,9 +257,9 @@ impl Group {
         let (low, high) = range(self.values());
         let reach = (high - low).max(low.abs()).max(high.abs());
         let is_near = |mark: &f64| *mark > low - reach && *mark < high + reach;
-        let near: Vec<_> = self.bounds.iter().copied().filter(|(_, mark)| is_near(mark)).collect();
+        let near: Vec<_> = self.bounds.iter().filter(|(_, mark)| is_near(mark)).collect();
         let limit = (!self.panel.marks.is_empty()).then_some("limit");
-        let mut labels: Vec<&str> = near.iter().map(|(what, _)| *what).chain(limit).collect();
+        let mut labels: Vec<&str> = near.iter().map(|(what, _)| what.as_str()).chain(limit).collect();
         labels.dedup();
         self.panel.mark_label = labels.join(", ");
         self.panel.marks.extend(near.iter().map(|(_, mark)| mark));
@@ -322,9 +322,10 @@ fn leave_out_constants(groups: &mut Vec<Group>) -> Vec<String> {
     named
 }
 
-/// Spans in which the Sun was not whole, where the recording has them, in units of `seconds`.
-fn eclipses(recording: &Recording, seconds: f64) -> Vec<(f64, f64)> {
-    let Some(position) = recording.names.iter().position(|name| is_lit_fraction(name)) else {
+/// Spans in which the Sun is not whole by the recorded part of its disc, in units of `seconds`.
+fn eclipses(described: &Description, recording: &Recording, seconds: f64) -> Vec<(f64, f64)> {
+    let lit: Vec<&String> = described.with_role(VariableRole::LitFraction).map(|it| &it.name).collect();
+    let Some(position) = recording.names.iter().position(|name| lit.contains(&name)) else {
         return Vec::new();
     };
     let lit = recording.columns[position].numbers();
@@ -343,12 +344,6 @@ fn eclipses(recording: &Recording, seconds: f64) -> Vec<(f64, f64)> {
     let last_s = recording.times_s.last().copied();
     spans.extend(since.zip(last_s).map(|(from_s, last_s)| (from_s / seconds, last_s / seconds)));
     spans
-}
-
-/// Whether a variable is the part of the Sun's disc that is seen.
-pub fn is_lit_fraction(name: &str) -> bool {
-    const LIT_FRACTION: &str = "sun.litFraction";
-    name.strip_suffix(LIT_FRACTION).is_some_and(|part| part.is_empty() || part.ends_with('.'))
 }
 
 /// Variables by name.

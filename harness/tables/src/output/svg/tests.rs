@@ -1,4 +1,6 @@
 //! What belongs together shares a panel.
+use model_description::Annotation;
+
 use super::*;
 
 const SHIP: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
@@ -110,13 +112,22 @@ fn counts_and_flags_are_staircases_on_whole_numbers() {
 fn eclipses_are_spans_of_a_sun_that_is_not_whole() {
     let recording = |lit: &[f64]| Recording {
         times_s: (0..lit.len()).map(|row| 60.0 * row as f64).collect(),
-        names: vec!["plant.sun.litFraction".to_owned()],
+        names: vec!["plant.lit".to_owned()],
         units: vec![String::new()],
         columns: vec![Column::Real(lit.to_vec())],
     };
-    assert_eq!(eclipses(&recording(&[1.0, 0.4, 0.0, 1.0, 1.0, 0.9]), 60.0), [(1.0, 3.0), (5.0, 5.0)]);
-    assert_eq!(eclipses(&recording(&[1.0, 1.0]), 60.0), []);
-    assert_eq!(eclipses(&Recording::default(), 60.0), []);
+    let annotation = Annotation { role: Some(VariableRole::LitFraction), ..Annotation::default() };
+    let lit = ScalarVariable {
+        name: "plant.lit".to_owned(),
+        annotation: Some(Box::new(annotation)),
+        ..ScalarVariable::default()
+    };
+    let described = Description { variables: vec![lit], ..Description::default() };
+    let spans = |recording: &Recording| eclipses(&described, recording, 60.0);
+    assert_eq!(spans(&recording(&[1.0, 0.4, 0.0, 1.0, 1.0, 0.9])), [(1.0, 3.0), (5.0, 5.0)]);
+    assert_eq!(spans(&recording(&[1.0, 1.0])), []);
+    assert_eq!(spans(&Recording::default()), []);
+    assert_eq!(eclipses(&Description::default(), &recording(&[0.5]), 60.0), []);
 }
 
 #[test]

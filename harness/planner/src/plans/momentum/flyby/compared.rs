@@ -1,7 +1,7 @@
 //! Manoeuvres that would do what the plan does: approach manoeuvres with their errors, and a departure manoeuvre for what is left.
 
 use inputs::plan::file::{PlanFile, encounter::Compare};
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Matrix2;
 
 use crate::{
     Failure,
@@ -64,6 +64,5 @@ pub(super) fn compared(
         all.push((at_s, found));
     }
     let sizes = [of(&flyby_task.first), miss, of(after)].map(|miss| departure(&miss, &cost.by_miss_1_s).1);
-    let by_m_1_s = [Vector2::x(), Vector2::y()].map(|miss_m| cost.cost_m_s(miss_m.into()));
-    Ok(Compared { approach: all, departure_s, departure_m_s: sizes, by_m_1_s })
+    Ok(Compared { approach: all, departure_s, departure_m_s: sizes, cost })
 }

@@ -5,7 +5,10 @@ mod compared;
 mod picture;
 mod update;
 
-use inputs::plan::file::PlanFile;
+use inputs::{
+    plan::file::{PlanFile, encounter::Compare},
+    reading::At,
+};
 use nalgebra::Vector2;
 use physics::constants::DAY_S;
 
@@ -18,10 +21,10 @@ use crate::{
     Failure,
     flyby::{
         controls::lead_by_windows,
-        report::{FlybyReport, encounter_of, sensitivity_csv},
+        report::{FlybyReport, encounter_of, partials_csv, sensitivity_csv},
     },
     momentum::{
-        attainable::{meets_target, reachable},
+        attainable::{Reachable, meets_target, reachable},
         plan::MomentumPlan,
     },
 };
@@ -30,7 +33,7 @@ use crate::{
 const DESIRED_S: f64 = 86_400.0;
 
 /// Names of files that only plans with a flyby have.
-pub(super) const NAMES: [&str; 2] = ["desired.csv", "sensitivity.csv"];
+pub(super) const NAMES: [&str; 3] = ["desired.csv", "sensitivity.csv", "partials.csv"];
 
 /// Whether a correction is within the reach that was found.
 fn holds(polygon_m: &[[f64; 2]], correction_m: Vector2<f64>) -> bool {
@@ -75,26 +78,50 @@ pub(super) fn before(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<Fl
         Some((at_s, found?))
     });
     Ok(FlybyReport {
-        aimpoint_m: flyby_task.aimpoint.b_m,
-        epoch_minus_time_s: flyby_task.force_model.epoch_minus_time_s,
-        radius_m: flyby_task.radius_m,
         miss: [Some(miss), None],
-        encounter: encounter_of(&flyby_task.first, flyby_task.radius_m),
         is_out_of_reach: !is_found,
         reach,
         desired: desired.collect(),
-        compared: None,
-        campaign: None,
+        ..reported(flyby_task)
     })
 }
 
-/// Completes the report by the plan's flight, manoeuvres and dispersed flights; returns the partials of the windows as CSV.
+/// The encounter of the mission as it is.
+fn reported(flyby_task: &FlybyTask) -> FlybyReport {
+    FlybyReport {
+        aimpoint_m: flyby_task.aimpoint.b_m,
+        epoch_minus_time_s: flyby_task.force_model.epoch_minus_time_s,
+        radius_m: flyby_task.radius_m,
+        miss: [None, None],
+        encounter: encounter_of(&flyby_task.first, flyby_task.radius_m),
+        is_out_of_reach: false,
+        reach: Reachable::default(),
+        desired: Vec::new(),
+        compared: None,
+        campaign: None,
+    }
+}
+
+/// The same of a plan without an aim, with what misses of it cost.
+pub(super) fn without_aim(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<FlybyReport, Failure> {
+    let file = &planned.file;
+    let of = |at: &At<Compare>| compared::compared(file, &at.it, (planned, flyby_task), &flyby_task.first);
+    let compared = file.compare.as_ref().map(of).transpose()?;
+    Ok(FlybyReport { compared, ..reported(flyby_task) })
+}
+
+/// `partials.csv` of the mission as it is.
+pub(super) fn first_partials(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<String, Failure> {
+    Ok(String::from_utf8(partials_csv(&flyby_task.first, &planned.simulated)?)?)
+}
+
+/// Completes the report by the plan's flight, manoeuvres and dispersed flights; returns `sensitivity.csv` and `partials.csv`.
 pub(super) fn complete(
     report: &mut FlybyReport,
     file: &PlanFile,
     (planned, flyby_task): (&Planned<'_>, &FlybyTask),
     found: &MomentumPlan,
-) -> Result<String, Failure> {
+) -> Result<[String; 2], Failure> {
     let mut flight = found.flight.clone();
     let after = flyby_task.judge(&mut flight, &planned.sunlit)?;
     report.miss[1] = Some(flyby_task.aimpoint.miss(&after.encounter));
@@ -110,7 +137,8 @@ pub(super) fn complete(
             Some(campaign::simulated(&mission, (at.it, covariance), (flyby_task, arrival_s), planned)?);
     }
     let by_window = lead_by_windows(&after, &planned.sunlit, &flight, &found.windows);
-    Ok(String::from_utf8(sensitivity_csv(&found.windows, &by_window)?)?)
+    let by_state = partials_csv(&after, &flight)?;
+    Ok([String::from_utf8(sensitivity_csv(&found.windows, &by_window)?)?, String::from_utf8(by_state)?])
 }
 
 /// Summary of the report, in lines.
@@ -136,6 +164,9 @@ pub(super) fn summary(report: &FlybyReport, flyby_task: &FlybyTask) -> Vec<Strin
     let [before, after] = &report.miss;
     lines.extend(before.iter().map(|miss| missed("the mission as it is", miss)));
     lines.extend(after.iter().map(|miss| missed("the plan", miss)));
+    if before.is_none() {
+        return lines;
+    }
     let along = report.reach.along_m.map(|along_m| along_m.map_or("none".to_owned(), km));
     lines.push(format!("reach +T {}, -T {}, +R {}, -R {} km", along[0], along[1], along[2], along[3]));
     if report.is_out_of_reach {
