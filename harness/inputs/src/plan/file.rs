@@ -128,7 +128,7 @@ impl Builder<'_> {
             margin.report("margin beside refit", "one of them");
         }
         let freeze_s = self.span(&root.key("freeze"), description.freeze.as_deref(), 14.0 * DAY_S, 0.0);
-        let every = |written: &Written| written.duration_s().filter(|every_s| *every_s >= LEAST_EVERY_S);
+        let every = |written: &Written| written.duration_s().filter(|every_s| *every_s >= MIN_EVERY_S);
         let allowed = format_args!("a time from 1 min on: {ALLOWED_SPAN}");
         let every_s = self.read(&root.key("every"), description.every.as_deref(), every, allowed);
         let window_s = self.span(&root.key("window"), description.window.as_deref(), 3.0 * DAY_S, 3600.0);
@@ -217,7 +217,7 @@ impl Builder<'_> {
 }
 
 /// Least distance of rows, in s.
-const LEAST_EVERY_S: f64 = 60.0;
+const MIN_EVERY_S: f64 = 60.0;
 const LARGEST_RAD: f64 = 5.0 * core::f64::consts::PI / 180.0;
 const WINDMILL_RAD: f64 = 2.0 * core::f64::consts::PI / 180.0;
 
