@@ -241,7 +241,7 @@ fn the_steps_of_the_paper_lead_back_to_the_aim() {
         &printed,
         &[
             "Mercury, 6 h before closest approach: aim B.T",
-            "the mission as it is misses by -1",
+            "the mission as it is misses by -",
             "departure manoeuvre",
         ],
     );

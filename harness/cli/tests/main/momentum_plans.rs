@@ -448,7 +448,8 @@ fn momentum_of_body_components_is_held_by_component() {
     let component = rows.iter().flatten().fold(0.0_f64, |most, it| most.max(it.abs()));
     let length = rows.iter().map(|row| row.iter().map(|it| it * it).sum::<f64>().sqrt()).fold(0.0, f64::max);
     println!("component {component}, length {length}, plan {}", number(folder, "simulated"));
-    assert!((component - number(folder, "simulated")).abs() < 1e-6 && length > 1.05 * component);
+    // The momentum lies nearly along an axis: by its length the plan would say 8e-3 N m s more.
+    assert!((component - number(folder, "simulated")).abs() < 1e-6 && length > component + 5e-3);
     assert!(number(folder, "largestDifference_n_m_s") < 0.02 * 4.0);
 }
 

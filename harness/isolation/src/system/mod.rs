@@ -3,7 +3,7 @@
 #[cfg(unix)]
 pub(crate) mod unix;
 #[cfg(windows)]
-pub mod windows;
+pub(crate) mod windows;
 
 #[cfg(unix)]
 use unix as own;

@@ -200,7 +200,7 @@ fn resume(process: u32) -> io::Result<()> {
 }
 
 /// Starts a child in a job of its own, which bounds its memory. Its process group keeps the console's Ctrl-C from it.
-pub fn spawn(command: &mut Command, limits: ResourceLimits) -> io::Result<Child> {
+pub(crate) fn spawn(command: &mut Command, limits: ResourceLimits) -> io::Result<Child> {
     let job = Job::new(limits.memory)?;
     command.creation_flags(CREATE_NEW_PROCESS_GROUP | CREATE_SUSPENDED);
     // Held meanwhile, so that a signal finds every child.
@@ -215,7 +215,7 @@ pub fn spawn(command: &mut Command, limits: ResourceLimits) -> io::Result<Child>
 }
 
 /// Ends a child with all that it started and takes its exit status; also gives the processes that it left behind.
-pub fn end(child: &mut Child) -> io::Result<(ExitStatus, Vec<String>)> {
+pub(crate) fn end(child: &mut Child) -> io::Result<(ExitStatus, Vec<String>)> {
     let mut jobs = jobs();
     // It may have ended by itself. While its handle is open, its number is nobody else's.
     let _ = child.kill();
@@ -233,12 +233,12 @@ pub fn end_all() {
 }
 
 /// Whether a child has ended; its number stays its own until the child is dropped.
-pub fn has_ended(child: &mut Child) -> io::Result<bool> {
+pub(crate) fn has_ended(child: &mut Child) -> io::Result<bool> {
     Ok(child.try_wait()?.is_some())
 }
 
 /// Takes the file that is the standard input; there is nothing to read then.
-pub fn take_stdin() -> io::Result<File> {
+pub(crate) fn take_stdin() -> io::Result<File> {
     let file = File::from(io::stdin().as_handle().try_clone_to_owned()?);
     let nothing = File::open("NUL")?.into_raw_handle();
     // SAFETY: the handle stays open for the life of the process.
@@ -247,12 +247,12 @@ pub fn take_stdin() -> io::Result<File> {
 }
 
 /// This process ends with its parent, which has the only handle of its job.
-pub fn end_with_parent(_parent: u64) -> io::Result<()> {
+pub(crate) fn end_with_parent(_parent: u64) -> io::Result<()> {
     Ok(())
 }
 
 /// The job bounds what this process may allocate. Windows has no bound on open files.
-pub fn restrict(_memory: u64, _files: u64) -> io::Result<()> {
+pub(crate) fn restrict(_memory: u64, _files: u64) -> io::Result<()> {
     // What crashes or lacks a library opens no window that somebody has to close.
     // SAFETY: of this process alone.
     unsafe { SetErrorMode(SEM_FAILCRITICALERRORS | SEM_NOGPFAULTERRORBOX | SEM_NOOPENFILEERRORBOX) };
@@ -262,7 +262,7 @@ pub fn restrict(_memory: u64, _files: u64) -> io::Result<()> {
 /// Committed memory of a child, in bytes.
 ///
 /// Windows lets no allocation pass the job's limit; Wine takes the limit and does not enforce it.
-pub fn committed_bytes(child: &Child) -> Option<u64> {
+pub(crate) fn committed_bytes(child: &Child) -> Option<u64> {
     let mut counters = PROCESS_MEMORY_COUNTERS::default();
     let size = size::<PROCESS_MEMORY_COUNTERS>();
     // SAFETY: the handle is open, the counters are of this size.
@@ -271,7 +271,7 @@ pub fn committed_bytes(child: &Child) -> Option<u64> {
 }
 
 /// Output stream of a child; reading does not block.
-pub struct Pipe(File);
+pub(crate) struct Pipe(File);
 
 impl Pipe {
     /// Takes a stream of a child.
@@ -304,7 +304,7 @@ impl Read for Pipe {
 }
 
 /// Waits until one of the pipes has something to read or is closed, at most this long.
-pub fn wait_for<'p>(pipes: impl Iterator<Item = &'p Pipe>, longest: Duration) {
+pub(crate) fn wait_for<'p>(pipes: impl Iterator<Item = &'p Pipe>, longest: Duration) {
     let (pipes, began): (Vec<_>, _) = (pipes.collect(), Instant::now());
     // A pipe cannot be waited for without reading.
     while began.elapsed() < longest && pipes.iter().all(|pipe| matches!(pipe.available(), Ok(0))) {
@@ -313,7 +313,7 @@ pub fn wait_for<'p>(pipes: impl Iterator<Item = &'p Pipe>, longest: Duration) {
 }
 
 /// How a process ended: exit status or the name of the exception (NTSTATUS).
-pub fn describe_exit(status: ExitStatus) -> String {
+pub(crate) fn describe_exit(status: ExitStatus) -> String {
     let Some(code) = status.code() else { return status.to_string() };
     let name = match code as u32 {
         0xc000_0005 => "segmentation fault",
@@ -330,11 +330,11 @@ pub fn describe_exit(status: ExitStatus) -> String {
 }
 
 /// Whether a process was ended by others; its status does not say.
-pub fn is_from_outside(_status: ExitStatus) -> bool {
+pub(crate) fn is_from_outside(_status: ExitStatus) -> bool {
     false
 }
 
 /// Memory that is available; not asked for, as [`committed_bytes`] is measured.
-pub fn available_bytes() -> Option<u64> {
+pub(crate) fn available_bytes() -> Option<u64> {
     None
 }

@@ -84,7 +84,7 @@ impl DynamicState {
             ],
             mass_kg: thrusters.mass_kg,
             flow_kg_s: thrusters.law.flow_kg_s,
-            mass_flow: (!thrusters.law.is_none()).then(|| thrusters.mass_flow),
+            mass_flow: (!thrusters.law.is_none()).then_some(thrusters.mass_flow),
             dipole: self.in_field(dipoles),
             internal: self.panels.internal(panels, &self.mass.now, time_s),
         }

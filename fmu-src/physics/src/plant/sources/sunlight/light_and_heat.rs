@@ -100,7 +100,7 @@ impl RadiationBuilder<'_, '_> {
                     Attempt::Fitted { fit, unresolved, tolerance: effects.tolerance }
                 }
                 // The flight may be over before it comes to where light has no meaning.
-                Err(error) => Attempt::Undefined(no_light(&self.path, start_s, error)),
+                Err(error) => Attempt::Undefined(no_light(self.path, start_s, error)),
             })
         })?;
         (segment.span, segment.made_for, segment.loads) = (span, self.path.digest, series);
@@ -146,7 +146,7 @@ impl RadiationBuilder<'_, '_> {
         let RadiationSolver { model, panels, nodes, heat_rule } = &mut *self.solver;
         let Span { start_s, end_s } = span;
         for (node, time_s) in nodes.iter_mut().zip(LoadSeries::nodes(start_s, end_s)) {
-            view(&mut self.path, time_s, panels, node);
+            view(self.path, time_s, panels, node);
             node.balance(model)?;
         }
         if stores {
@@ -185,7 +185,7 @@ impl RadiationBuilder<'_, '_> {
         let RadiationSolver { model, nodes, .. } = &mut *self.solver;
         if let Some(segment) = segment.filter(|_| stores) {
             segment.temperatures_at(time_s, &mut nodes[0].temperatures_k);
-            nodes[0].radiate_stored(model).map_err(|error| no_light(&self.path, time_s, error))?;
+            nodes[0].radiate_stored(model).map_err(|error| no_light(self.path, time_s, error))?;
         }
         for face in nodes[0].workspace.faces() {
             report(face.temperature_k, face.force_body_n(*effects));
@@ -196,9 +196,9 @@ impl RadiationBuilder<'_, '_> {
     /// Light and heat at one time in the first of the nodes, every surface in balance; `solar_scale` is the factor of sunlight's force.
     fn balance(&mut self, time_s: f64, solar_scale: f64) -> Result<(), PlantError> {
         let RadiationSolver { model, panels, nodes, .. } = &mut *self.solver;
-        view(&mut self.path, time_s, panels, &mut nodes[0]);
+        view(self.path, time_s, panels, &mut nodes[0]);
         nodes[0].viewing.solar_scale = solar_scale;
-        nodes[0].balance(model).map_err(|error| no_light(&self.path, time_s, error))
+        nodes[0].balance(model).map_err(|error| no_light(self.path, time_s, error))
     }
 
     /// Whether surfaces store heat.
