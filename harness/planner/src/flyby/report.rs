@@ -213,7 +213,7 @@ pub fn partials_csv(sensitivity: &Sensitivity, flight: &SimulatedFlight) -> Resu
     for (row, motion) in before.filter_map(|row| Some((row, row.motion?))) {
         let CartesianState { position_m, velocity_m_s } = motion.from_sun;
         let by_state = sensitivity.at(row.time_s).transpose();
-        let numbers = [position_m, velocity_m_s].into_iter().flat_map(|vector| <[f64; 3]>::from(vector));
+        let numbers = [position_m, velocity_m_s].into_iter().flat_map(<[f64; 3]>::from);
         let cells = [row.time_s].into_iter().chain(numbers).chain(by_state.iter().copied());
         writer.write_record(cells.map(|number| number.to_string()))?;
     }
