@@ -118,9 +118,9 @@ fn guidance_allocates_nothing() {
                 }
                 ok(instance.do_step(time_s, 0.7));
                 time_s += 0.7;
-                ok(instance.get_real(&references[0], &mut reals));
-                ok(instance.get_integer(&references[1], &mut integers));
-                ok(instance.get_boolean(&references[2], &mut booleans));
+                ok(instance.get_real(references[0], &mut reals));
+                ok(instance.get_integer(references[1], &mut integers));
+                ok(instance.get_boolean(references[2], &mut booleans));
                 let mut now = [0.0; 3];
                 ok(instance.get_real(&rate, &mut now));
                 turned += i32::from(now != last);
@@ -283,9 +283,9 @@ fn placing_allocates_nothing() {
             ok(instance.set_input_derivatives(&planet, &[1; 3], &[100.0 * cos, 100.0 * sin, 0.0]));
             ok(instance.do_step(time_s, 1.0));
             time_s += 1.0;
-            ok(instance.get_real(&reals, &mut values));
-            ok(instance.get_integer(&integers, &mut choices));
-            ok(instance.get_boolean(&booleans, &mut switches));
+            ok(instance.get_real(reals, &mut values));
+            ok(instance.get_integer(integers, &mut choices));
+            ok(instance.get_boolean(booleans, &mut switches));
             let mut fraction = [1.0];
             ok(instance.get_real(&[lit], &mut fraction));
             dark += i32::from(fraction[0] == 0.0);

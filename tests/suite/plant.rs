@@ -74,13 +74,13 @@ fn reading_and_setting_the_same_change_no_bit() {
         // The same simulation, cut at odd places.
         ok(read.set_real(&torque, &[0.0; 3]));
         ok(read.do_step(at_s, 100.0));
-        let _ = real_bits(&mut read, &reals);
+        let _ = real_bits(&mut read, reals);
         let mut center = [0.0; 3];
         ok(read.get_real(&tunable, &mut center));
         ok(read.set_real(&tunable, &center));
         ok(read.do_step(at_s + 100.0, 7.0));
         let _ = read.state_bytes();
         ok(read.do_step(at_s + 107.0, 493.0));
-        assert_eq!(real_bits(&mut plain, &reals), real_bits(&mut read, &reals), "step {step}");
+        assert_eq!(real_bits(&mut plain, reals), real_bits(&mut read, reals), "step {step}");
     }
 }

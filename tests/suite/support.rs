@@ -98,8 +98,8 @@ pub(crate) type Everything = (Vec<u64>, Vec<i32>, Vec<i32>, Vec<String>);
 pub(crate) fn everything(instance: &mut InProcess, names: &Names) -> Everything {
     let (integers, booleans) = (names.all(BaseType::Integer), names.all(BaseType::Boolean));
     let (mut integer_values, mut boolean_values) = (vec![0; integers.len()], vec![0; booleans.len()]);
-    ok(instance.get_integer(&integers, &mut integer_values));
-    ok(instance.get_boolean(&booleans, &mut boolean_values));
+    ok(instance.get_integer(integers, &mut integer_values));
+    ok(instance.get_boolean(booleans, &mut boolean_values));
     let (status, texts) = instance.get_string(names.all(BaseType::String));
     ok(status);
     (real_bits(instance, names.all(BaseType::Real)), integer_values, boolean_values, texts)
