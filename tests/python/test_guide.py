@@ -38,7 +38,7 @@ KEYS = re.compile(r"(?m)^<!-- keys: (\w+) ?(\w*) -->\n((?:\|.*\n)*)")
 UNIT = re.compile(r", in ((?:kg|k?m[23]?|s|deg|rad|rpm|K|N|Pa|Hz|W|J|sqrt\(kg\))(?:[ /][\w/]+)*?)(?= or |[,;:.]|$)")
 SUFFIXES = {"_m_s": "m/s", "_m": "m", "_s": "s", "_rad": "rad", "_deg": "deg"}
 # What stands in backticks like a variable and is none: keys and calls of other things.
-NO_VARIABLES = re.compile(r"\.(md|rs|py|toml|svg|csv|json|ssp|fmu|ssv|part|html|xml|bsp|spk)$|_|^numpy|^name\.|^io\.github\.|/")
+NO_VARIABLES = re.compile(r"\.(md|rs|py|toml|svg|csv|json|ssp|fmu|ssv|part|html|xml|bsp|spk)$|_|^numpy|^name\.|^io\.github\.|^x\.|/")
 
 
 def plain(text):
