@@ -275,7 +275,7 @@ pub(crate) struct Pipe(File);
 
 impl Pipe {
     /// Takes a stream of a child.
-    pub fn new(stream: impl Into<OwnedHandle>) -> io::Result<Self> {
+    pub(crate) fn new(stream: impl Into<OwnedHandle>) -> io::Result<Self> {
         Ok(Self(File::from(stream.into())))
     }
 
