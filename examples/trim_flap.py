@@ -1,7 +1,7 @@
 """The flap of the sunshield telescope, turned until a tour of the sky collects no momentum.
 
 Needs the telescope beside the other FMUs:
-heliotorque pack --spacecraft fmu-src/resources/examples/sunshield-telescope.toml --model DisturbanceTorque \
+heliotorque pack fmu-src/resources/examples/sunshield-telescope.toml --model DisturbanceTorque \
   --template dist/DisturbanceTorque.fmu --name SunshieldTelescope --output dist/SunshieldTelescope.fmu
 """
 

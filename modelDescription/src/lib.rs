@@ -14,6 +14,7 @@ pub mod functions;
 pub mod labels;
 mod lexical;
 pub mod names;
+pub mod quantity;
 #[cfg(feature = "reader")]
 mod reader;
 pub mod rules;

@@ -4,7 +4,7 @@ use core::fmt;
 
 use crate::{
     BaseType, Description, DisplayUnit, EnumerationItem, RealAttributes, ScalarVariable, SimpleTypeKind,
-    VariableKind, names::hint,
+    VariableKind, names::hint, quantity,
 };
 
 /// A value of a variable; Enumerations are Integers at the interface.
@@ -166,7 +166,31 @@ fn display_units<'a>(description: &'a Description, unit: &str) -> &'a [DisplayUn
 ///
 /// Reals are in the variable's unit, or carry a suffix: the unit itself or one of its display units
 /// (`5deg`, `2.54 cm`). Enumerations take the item's number or name, in any case where that is unique, Booleans `true`, `false`, `1`, `0`.
+///
+/// # Errors
+/// Any other text, and an angle beyond a turn without a unit.
 pub fn read(description: &Description, variable: &ScalarVariable, text: &str) -> Result<Value, Misfit> {
+    let value = read_cell(description, variable, text)?;
+    let is_bare = || text.trim().parse::<f64>().is_ok();
+    match value {
+        Value::Real(number)
+            if quantity::is_beyond_turn(number)
+                && unit(description, variable) == Some("rad")
+                && is_bare() =>
+        {
+            let text = text.trim();
+            let found = format!("{text:?}, which is more than a turn without a unit");
+            Err(Misfit::new(found, format!("{text} deg or {text} rad")))
+        }
+        value => Ok(value),
+    }
+}
+
+/// Reads a cell of a table as [`read`] does; an angle without a unit may be beyond a turn.
+///
+/// # Errors
+/// Any other text.
+pub fn read_cell(description: &Description, variable: &ScalarVariable, text: &str) -> Result<Value, Misfit> {
     let text = text.trim();
     let misfit = || Misfit::new(format!("{text:?}"), allowed(description, variable));
     match &variable.kind {
@@ -197,23 +221,11 @@ fn item_named<'a>(items: &'a [EnumerationItem], name: &str) -> Option<&'a Enumer
 
 fn read_real(description: &Description, variable: &ScalarVariable, text: &str) -> Result<f64, Misfit> {
     let misfit = |found: String| Misfit::new(found, allowed(description, variable));
-    let no_number = || misfit(format!("{text:?}, which is no number"));
-    // The longest prefix that reads as a number; what follows is the unit. Words such as `inf` are no numbers
-    // here, so that a unit may begin with any letter.
-    let split = (1..=text.len())
-        .rev()
-        .filter(|&end| text.is_char_boundary(end))
-        .find(|&end| {
-            let number = text[..end].trim_end();
-            number.ends_with(|last: char| last.is_ascii_digit() || last == '.')
-                && number.parse::<f64>().is_ok()
-        })
-        .ok_or_else(no_number)?;
-    let number: f64 = text[..split].trim_end().parse().map_err(|_| no_number())?;
+    let (number, suffix) =
+        quantity::split(text).ok_or_else(|| misfit(format!("{text:?}, which is no number")))?;
     if !number.is_finite() {
         return Err(misfit(format!("{text:?}, which is beyond the largest number")));
     }
-    let suffix = text[split..].trim();
     if suffix.is_empty() {
         return Ok(number);
     }

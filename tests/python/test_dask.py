@@ -160,9 +160,9 @@ def test_the_command_uses_a_scheduler_or_its_own_processes(client, stand_in, tmp
         assert output.read_bytes() == expected
         output.unlink()
     refused = module(tmp_path / "refused.toml", "--output", output, "--heliotorque", program, *scheduler)
-    assert refused.returncode == 1 and "heliotorque_dask: " in refused.stderr and "sampling: found maybe" in refused.stderr
+    assert refused.returncode == 2 and "heliotorque_dask: " in refused.stderr and "sampling: found maybe" in refused.stderr
     absent = module(tmp_path / "campaign.toml", "--output", output, "--heliotorque", tmp_path / "none", *scheduler)
-    assert absent.returncode == 1 and "none: No such file or directory; allowed: the heliotorque program" in absent.stderr
+    assert absent.returncode == 2 and "none: No such file or directory; allowed: the heliotorque program" in absent.stderr
     assert module(tmp_path / "campaign.toml", "--output", output, "--pieces", "0").returncode == 2
     assert not output.exists()
 

@@ -251,7 +251,7 @@ def test_plant_and_disturbance_torque_joined_by_wire_have_equal_torques(heliotor
 
 def test_the_tutorials_spacecraft_gets_all_four_torques_in_one_picture(heliotorque, dist, tmp_path):
     book = RESOURCES.parents[1] / "docs" / "src" / "tutorial"
-    command = "run EarthSurveyor.fmu --stop 3h --step 1min --record 'torque.*' --plot torques.svg"
+    command = "run EarthSurveyor.fmu --stop 3h --step 1min --record 'torque.*' --output torques.svg"
     assert f"$ heliotorque {command}\n" in (book / "low-earth-orbit.md").read_text(encoding="utf-8")
     pack(heliotorque, dist, tmp_path, (book / "leo.toml").read_text(encoding="utf-8"), "EarthSurveyor")
     done = call(heliotorque, *shlex.split(command), "--output", "torques.csv", folder=tmp_path)

@@ -57,7 +57,7 @@ def test_an_installed_program_works_anywhere(heliotorque, tmp_path, options):
     for arguments, expected in [
         (("check", "my.toml"), "ok for SpinPlant"),
         (("pack", "--spacecraft", "my.toml", "--name", "My"), "My.fmu: My, "),
-        (("check", "My.fmu", "--static"), "0 wrong"),
+        (("check", "My.fmu", "--static"), "0 failed"),
         (("plan", "spin", "--output", "turn"), f"Re-simulated through {shared / 'SpinPlant.fmu'}"),
         (("study", "spin/figure3"), "Nutation after a 2 deg manoeuvre"),
     ]:

@@ -22,7 +22,7 @@ def test_a_map_of_any_step_has_the_same_torques(heliotorque, dist, tmp_path):
         path = tmp_path / f"{step}.csv"
         template = (dist / "MomentumPlant.fmu").resolve()
         file = RESOURCES / "messenger.toml"
-        done = call(heliotorque, "map", file, "--template", template, "--step", step, "--csv", path, folder=tmp_path)
+        done = call(heliotorque, "map", file, "--template", template, "--step", step, "--output", path, folder=tmp_path)
         assert done.returncode == 0, done.stderr
         rows[step] = {tuple(line.split(",")[:2]): line for line in path.read_text(encoding="utf-8").splitlines()[1:]}
     assert len(rows["30 deg"]) > 50

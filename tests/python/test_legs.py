@@ -1,4 +1,4 @@
-"""Missions that `heliotorque plan leg` gave: an FMU packed with a mission's values flies past Mercury in FMPy, with nothing else set."""
+"""Missions that `heliotorque plan` gave: an FMU packed with a mission's values flies past Mercury in FMPy, with nothing else set."""
 
 import pytest
 from simulation import DAY_S, simulate

@@ -26,7 +26,7 @@ def direction(azimuth_deg, elevation_deg):
 def mapped(heliotorque, dist, spacecraft, *arguments):
     """Rows of the CSV as numbers."""
     done = call(
-        heliotorque, "map", spacecraft, "--template", (dist / "MomentumPlant.fmu").resolve(), "--csv", "-", "--no-picture", "--quiet",
+        heliotorque, "map", spacecraft, "--template", (dist / "MomentumPlant.fmu").resolve(), "--output", "-", "--quiet",
         *arguments,
     )
     assert done.returncode == 0, done.stderr
@@ -110,7 +110,7 @@ def test_a_mission_leaves_the_band_when_it_dumps(heliotorque, dist, tmp_path, co
         assert done.returncode == 0, done.stderr
     with open(when, encoding="utf-8") as file:
         first_s = next(float(row["dump.lastTime"]) for row in csv.DictReader(file) if row["dump.count"] == "1")
-    arguments = ["--mission", simulated, "--no-picture", "--step", "10deg", "--set", "spacecraft.centerOfMass[3]=-2.54cm"]
+    arguments = ["--recording", simulated, "--no-picture", "--step", "10deg", "--set", "spacecraft.centerOfMass[3]=-2.54cm"]
     arguments += ["--set", "dump.threshold=4,4,4"]
     told = call(heliotorque, "map", RESOURCES / "messenger.toml", "--template", plant, *arguments)
     assert told.returncode == 0, told.stderr

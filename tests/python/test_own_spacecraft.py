@@ -197,7 +197,7 @@ def test_a_shade_given_as_cylinder_alone_runs_as_one_and_not_as_plates(heliotorq
 def test_a_good_file_is_checked_with_the_template_beside_the_user(heliotorque, dist, tmp_path):
     (tmp_path / "my.toml").write_bytes(b"\xef\xbb\xbf" + GOOD.replace("\n", "\r\n").encode())
     without = call(heliotorque, "check", "my.toml", folder=tmp_path)
-    assert without.returncode == 1 and "--template" in without.stderr
+    assert without.returncode == 2 and "--template" in without.stderr
     (tmp_path / "dist").mkdir()
     (tmp_path / "dist" / "MomentumPlant.fmu").write_bytes((dist / "MomentumPlant.fmu").read_bytes())
     checked = call(heliotorque, "check", "my.toml", folder=tmp_path)
@@ -210,12 +210,12 @@ def test_the_template_is_not_overwritten(heliotorque, dist, tmp_path):
     template = tmp_path / "dist" / "MomentumPlant.fmu"
     template.write_bytes((dist / "MomentumPlant.fmu").read_bytes())
     packed = call(heliotorque, "pack", "--template", "MomentumPlant.fmu", folder=tmp_path / "dist")
-    assert packed.returncode == 1 and "--name" in packed.stderr
+    assert packed.returncode == 2 and "--name" in packed.stderr
     assert template.read_bytes() == (dist / "MomentumPlant.fmu").read_bytes()
 
 
 def test_the_schema_of_a_spinner_is_the_committed_one_and_knows_the_shipped_file(heliotorque):
-    schema = json.loads(call(heliotorque, "schema", "spinner").stdout)
+    schema = json.loads(call(heliotorque, "new", "--schema", "spinner").stdout)
     assert schema == json.loads((RESOURCES / "spinner.schema.json").read_text(encoding="utf-8"))
 
     def resolved(node):

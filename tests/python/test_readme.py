@@ -427,13 +427,13 @@ BENCHMARKS = {
     "200 days of cruise by a timeline in steps of 1 h, `heliotorque run` of the mission": [
         "cruise_200_days_by_timeline", "cruise_200_days_by_timeline_peak",
     ],
-    "`plan momentum` of these 200 days: tilt and alternation alone, with the fewest changes of the arrays too": [
+    "`plan` of these 200 days: tilt and alternation alone, with the fewest changes of the arrays too": [
         "plan_cruise_200_days_convex", "plan_cruise_200_days_counted_changes",
     ],
     "200 days between planets (`orbit.dynamics` nBody): one doStep from C; `heliotorque run` of the mission": [
         "n_body_200_days_by_c", "n_body_200_days_by_c_peak", "n_body_200_days", "n_body_200_days_peak",
     ],
-    "`plan flyby` of the leg to the second flyby of Mercury, an aim 170 km off: offsets and tilts of 11 windows from 111 days before on, with its flights": [
+    "`plan` with `[flyby]` of the leg to the second flyby of Mercury, an aim 170 km off: offsets and tilts of 11 windows from 111 days before on, with its flights": [
         "plan_flyby_170_km", "partials_of_all_windows_with_the_flight",
     ],
     "the same with 1,000 dispersed flights of 201 days each": ["plan_flyby_1000_dispersed_legs"],

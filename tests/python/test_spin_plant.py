@@ -46,13 +46,13 @@ def own_spacecraft(heliotorque, spin_plant, folder, change):
 @pytest.mark.parametrize(
     "arguments, angle_deg, broken",
     [
-        (["--thruster", "IA", "--max-duration", "4"], 2.0, "spin period varies"),
-        (["--thruster", "axial couple I-IV", "--max-duration", "4"], 2.0, "spin period varies"),
-        (["--angle", "120", "--max-duration", "50", "--ratio-uncertainty", "0.002"], 120.0, "Sun angle, spin period varies"),
+        (["--thruster", "IA", "--max-duration", "4min"], 2.0, "spin period varies"),
+        (["--thruster", "axial couple I-IV", "--max-duration", "4min"], 2.0, "spin period varies"),
+        (["--angle", "120deg", "--max-duration", "50min", "--ratio-uncertainty", "0.002"], 120.0, "Sun angle, spin period varies"),
     ],
 )
 def test_a_plan_turns_as_far_as_it_says_whatever_fires(heliotorque, spin_plant, arguments, angle_deg, broken):
-    command = [str(heliotorque), "plan", "spin", "--fmu", spin_plant] + arguments
+    command = [str(heliotorque), "plan", "spin", "--template", spin_plant] + arguments
     planned = subprocess.run(command, capture_output=True, text=True)
     text = planned.stdout
     assert planned.returncode == 1 and planned.stderr == f"limits broken: {broken}\n"
@@ -65,7 +65,7 @@ def test_a_plan_turns_as_far_as_it_says_whatever_fires(heliotorque, spin_plant, 
 def test_a_plan_that_the_fmu_does_not_simulate_as_foreseen_is_no_plan(heliotorque, spin_plant, tmp_path):
     # A spacecraft whose thrusters bear the same names and push half as hard.
     weak = own_spacecraft(heliotorque, spin_plant, tmp_path, lambda text: text.replace("force_n = 4.448", "force_n = 2.224"))
-    command = [str(heliotorque), "plan", "spin", "--thruster", "axial couple I-IV", "--fmu", str(weak)]
+    command = [str(heliotorque), "plan", "spin", "--thruster", "axial couple I-IV", "--template", str(weak)]
     failed = subprocess.run(command, capture_output=True, text=True)
     assert failed.returncode == 1 and "no plan keeps its limits when it is simulated" in failed.stderr
     assert re.search(r"the move misses by (49|50)\.\d+ % beyond 2", failed.stderr), failed.stderr

@@ -192,7 +192,7 @@ def test_wire_connects_what_belongs_together_and_nothing_else(heliotorque, dist,
     refused = subprocess.run([heliotorque, "wire", dist / "Guidance.fmu"], stdout=other_end, stderr=subprocess.PIPE, text=True)
     os.close(terminal)
     os.close(other_end)
-    assert refused.returncode == 1 and "not written to a terminal: see --output" in refused.stderr
+    assert refused.returncode == 2 and "not written to a terminal: see --output" in refused.stderr
 
 
 @pytest.mark.parametrize("system", SYSTEMS)

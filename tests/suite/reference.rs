@@ -30,7 +30,7 @@ fn compare(heliotorque: &Path, fmu: &Path, name: &str, arguments: &[&str]) {
     let mut run = Command::new(heliotorque);
     run.arg("run").arg(fmu).args(["--quiet", "--output"]).arg(&found_path).args(arguments);
     if bless {
-        run.arg("--plot").arg(folder().join(format!("{name}.svg")));
+        run.arg("--output").arg(folder().join(format!("{name}.svg")));
     }
     let output = run.output().unwrap();
     assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));

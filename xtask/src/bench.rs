@@ -146,11 +146,8 @@ fn plans(built: &Built) -> Outcome {
     let plan = "mission = \"cruise.toml\"\n[momentum]\nlimit = 5.5\n[tilt]\nazimuth = \"5 deg\"\nelevation = \"5 deg\"\n";
     write("convex.toml", &format!("windmill = 0\n{plan}"))?;
     write("counted.toml", plan)?;
-    row("plan_cruise_200_days_convex", &mut heliotorque("plan momentum convex.toml --output plan"))?;
-    row(
-        "plan_cruise_200_days_counted_changes",
-        &mut heliotorque("plan momentum counted.toml --output plan"),
-    )?;
+    row("plan_cruise_200_days_convex", &mut heliotorque("plan convex.toml --output plan"))?;
+    row("plan_cruise_200_days_counted_changes", &mut heliotorque("plan counted.toml --output plan"))?;
     // A history has no other columns: what the mission records, draws and limits is left out.
     let kept = |line: &&str| {
         ["record", "every", "[[plot]]", "file", "names", "[limits]", "\"panel[1].cor", "\"panel[2].cor"]
@@ -186,8 +183,8 @@ fn flybys(built: &Built) -> Outcome {
         "momentum.toml",
         &format!("mission = \"flyby.toml\"\nfreeze = 0\nwindow = \"10 d\"\n{tilt}"),
     )?;
-    output(&mut heliotorque("plan momentum momentum.toml --output momentum"))?;
-    output(&mut heliotorque("plan leg leg.toml --output leg"))?;
+    output(&mut heliotorque("plan momentum.toml --output momentum"))?;
+    output(&mut heliotorque("plan leg.toml --output leg"))?;
     let aim = |altitude: &str| {
         format!(
             "[flyby]\nbody = \"mercury\"\naltitude = \"{altitude}\"\nangle = 0\nfrom = \"2008-06-17 UTC\"\n"
@@ -196,18 +193,18 @@ fn flybys(built: &Built) -> Outcome {
     let met = format!("mission = \"leg/mission.toml\"\nwindmill = 0\n{tilt}{}", aim("200 km"));
     folder.write("met.toml", &met)?;
     // The progress message `reach` follows the simulation and its partials.
-    let plan =
-        folder.command("plan flyby met.toml --output met").output().map_err(|error| error.to_string())?;
+    let plan = folder.command("plan met.toml --output met").output().map_err(|error| error.to_string())?;
     let progress = String::from_utf8_lossy(&plan.stderr).into_owned();
     let partials_s = progress.lines().find_map(|line| line.strip_suffix(" s: reach"));
-    let partials_s = partials_s.ok_or_else(|| format!("`plan flyby` reported no reach: {progress}"))?;
+    let partials_s =
+        partials_s.ok_or_else(|| format!("`plan` with `[flyby]` reported no reach: {progress}"))?;
     println!("bench partials_of_all_windows_with_the_flight {partials_s} s");
     let text = format!(
         "mission = \"leg/mission.toml\"\nwindow = \"10 d\"\n{tilt}[sunOffset]\nchange = true\nlargest = \"20 deg\"\n{}",
         aim("370 km")
     );
     folder.write("plan.toml", &text)?;
-    row("plan_flyby_170_km", &mut heliotorque("plan flyby plan.toml --output plan"))?;
+    row("plan_flyby_170_km", &mut heliotorque("plan plan.toml --output plan"))?;
     let variances = [1e6, 1e6, 1e6, 1e-6, 1e-6, 1e-6];
     let line = |row: usize| {
         let cells = (0..6).map(|column| if row == column { variances[row] } else { 0.0 });
@@ -217,7 +214,7 @@ fn flybys(built: &Built) -> Outcome {
     let state = "[update]\nat = \"2008-03-19 UTC\"\ncovariance = \"covariance.csv\"\n";
     folder.write("dispersed.toml", &format!("{met}{state}[montecarlo]\nruns = {LEGS}\nscale = 0.01\n"))?;
     let begin = Instant::now();
-    output(&mut heliotorque("plan flyby dispersed.toml --output dispersed"))?;
+    output(&mut heliotorque("plan dispersed.toml --output dispersed"))?;
     println!("bench plan_flyby_{LEGS}_dispersed_legs {:.2} s", begin.elapsed().as_secs_f64());
     Ok(())
 }
@@ -231,7 +228,7 @@ fn n_body_by_c(folder: &Folder<'_>) -> Outcome {
     let one_step = mission.replace("../../messenger.toml", "messenger.toml").replace("\nevery = \"6 h\"", "");
     let one_step = one_step.replace("\"203 d\"", "\"200 d\"").replace("\"1 h\"", "\"200 d\"");
     folder.write("one-step.toml", &one_step)?;
-    run(&mut folder.command("pack --mission one-step.toml --name Leg --output Leg.fmu"))?;
+    run(&mut folder.command("pack one-step.toml --name Leg --output Leg.fmu"))?;
     run(command("python3").args(["-m", "zipfile", "-e", "Leg.fmu", "Leg"]).current_dir(&folder.path))?;
     let program = compile_c(&folder.path, "flight")?;
     let unpacked = folder.path.join("Leg");

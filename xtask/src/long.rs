@@ -248,7 +248,7 @@ fn writes() -> Outcome {
     let spacecraft = root().join("fmu-src").join("resources").join("messenger.toml");
     let commands: [(&[&str], &str, &str); 3] = [
         (&["run", &plant, "--stop", "2d", "--quiet"], "--output", "rows.csv"),
-        (&["run", &plant, "--stop", "2d", "--quiet"], "--plot", "rows.svg"),
+        (&["run", &plant, "--stop", "2d", "--quiet"], "--output", "rows.svg"),
         (
             &["pack", "--template", &plant, "--spacecraft", &spacecraft.to_string_lossy()],
             "--output",

@@ -1,11 +1,11 @@
-//! From arguments to a command and its exit status: 0 done, 1 failed or found wanting, 2 wrong usage.
+//! From arguments to a command.
 
 use std::{
     ffi::OsString,
     path::{Path, PathBuf},
 };
 
-use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use files::outcome::Outcome;
 use inputs::home;
 use isolation::{Bounds, Relayed, SMALL, interrupt, large};
@@ -13,60 +13,59 @@ use terminal::Screen;
 
 use crate::{
     check, compare, completions, draw, ephemeris, info, manual, map, new, pack, plan, plot, refit,
-    run as simulation, schema, size, study, sweep, wire,
+    run as simulation, size, study, sweep, usage, wire,
 };
 
 /// Spacecraft disturbance torque and momentum as FMUs: show, check and simulate them, pack your own.
 #[derive(Debug, Parser)]
 #[command(version, max_term_width = 100)]
 struct Arguments {
-    /// What to do.
+    /// The command.
     #[command(subcommand)]
     command: Command,
 }
 
-/// The commands.
+/// The commands, in the order of [`GROUPS`].
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Show what an FMU is, what it takes and gives, and what its sunshade and wheels come to; or what a system joins
+    /// Show what an FMU is, takes, gives and computes; or what a system joins
     Info(info::Info),
-    /// Check an FMU, a system, or a spacecraft before it is packed: what is wrong, what it comes to, what looks odd
+    /// Check an FMU, a system or a file before it is used: what is wrong, what looks odd
     Check(check::Check),
     /// Run an FMU, a system of FMUs (SSP) or a mission from start to stop
     Run(simulation::Run),
-    /// Connect FMUs by the names and units of their variables: a system (SSP) that any tool for SSP runs
+    /// Connect FMUs by names and units of their variables: a system (SSP)
     Wire(wire::Wire),
-    /// Write a commented file that works unchanged: spacecraft, spinner, mission, campaign, timeline, plan or leg
-    New(new::New),
-    /// Draw a spacecraft's file: front, side, top and perspective, with axes, Sun, names, centre of mass, panel axes
-    Draw(draw::Draw),
-    /// Map the torque of sunlight over the Sun's azimuth and elevation: where it vanishes, what a degree is worth, what
-    /// downlinks can undo
-    Map(map::Map),
-    /// Size wheels and propellant of a spacecraft or a mission: momentum by source, dumps over capacity, slews, thrusters
-    Size(size::Size),
-    /// Make an FMU of your own spacecraft; nothing is compiled
-    Pack(pack::Pack),
-    /// Fit the positions of an FMU's flight: an ephemeris that spacecraft carry, with its error
-    Ephemeris(ephemeris::Ephemeris),
-    /// Print the JSON Schema of a file, for editors that complete and check TOML
-    Schema(schema::Schema),
-    /// Simulate many runs of a mission or an FMU whose values vary, and keep what is needed of each
+    /// Simulate many runs of a mission or an FMU whose values vary
     Sweep(sweep::Sweep),
-    /// Run a study of the papers, or list them
-    Study(study::Study),
-    /// Find an optimal plan
-    #[command(subcommand)]
-    Plan(plan::Plan),
-    /// Fit centre of mass and solar.scale of a mission to a history of momentum, with their covariance
-    Refit(refit::Refit),
-    /// Compare two tables, as `run` and campaigns write them: the largest difference of every variable, and when
+    /// Compare two tables: the largest difference of every variable, and when
     Compare(compare::Compare),
-    /// Draw tables, as `run` and campaigns write them: over time, overlaid, percentiles, histogram, scatter, heat, tornado
+    /// Draw tables: over time, overlaid, percentiles, histogram, scatter, heat, tornado
     Plot(plot::Plot),
+    /// Write a commented file that works unchanged, or the schema of its kind
+    New(new::New),
+    /// Draw a spacecraft: three views and a perspective, with axes, Sun, centre of mass
+    Draw(draw::Draw),
+    /// Map the torque of sunlight over azimuth and elevation of the Sun
+    Map(map::Map),
+    /// Size wheels and propellant of a spacecraft or a mission
+    Size(size::Size),
+    /// Make an FMU of your own spacecraft or mission; nothing is compiled
+    Pack(pack::Pack),
+    /// Fit the positions of an FMU's flight: an ephemeris that spacecraft carry
+    Ephemeris(ephemeris::Ephemeris),
+    /// Find an optimal plan: momentum, flyby or leg by its file, or a spinner's turn
+    Plan(plan::Plan),
+    /// Fit centre of mass and solar.scale of a mission to a history of momentum
+    Refit(refit::Refit),
+    /// Run a study of the papers, or list them
+    #[command(hide = true)]
+    Study(study::Study),
     /// Print what a shell needs to complete commands and options
+    #[command(hide = true)]
     Completions(completions::Completions),
     /// Print the manual's page of the program or of a command
+    #[command(hide = true)]
     Man(manual::Manual),
     /// Runs one probe of `check` in a process of its own
     #[command(hide = true, name = "probe-in-child")]
@@ -99,16 +98,28 @@ struct InChild {
     arguments: Vec<OsString>,
 }
 
+/// The program as clap knows it.
+fn program() -> clap::Command {
+    usage::with_help(Arguments::command())
+}
+
+/// The command of these arguments.
+fn parsed(arguments: &[OsString]) -> Result<Command, clap::Error> {
+    let name = OsString::from(env!("CARGO_BIN_NAME"));
+    let matches = program().try_get_matches_from([name].iter().chain(arguments))?;
+    Ok(Arguments::from_arg_matches(&matches)?.command)
+}
+
 /// Parses the arguments and runs the command.
 pub(crate) fn run() -> Outcome {
-    let command = Arguments::parse().command;
+    let arguments: Vec<OsString> = std::env::args_os().skip(1).collect();
+    let command = parsed(&arguments).unwrap_or_else(|error| usage::end(&program(), &arguments, error));
     match &command {
         // A child is ended by its parent.
         Command::Probe(_) | Command::RunInChild(_) | Command::SweepInChild(_) => {}
         Command::InChild(InChild { output_columns, note_columns, arguments }) => {
             let screen = Screen { output_columns: *output_columns, note_columns: *note_columns };
-            let given = [OsString::from(env!("CARGO_BIN_NAME"))].into_iter().chain(arguments.iter().cloned());
-            return isolation::serve(screen, || carry_out(Arguments::parse_from(given).command));
+            return isolation::serve(screen, || carry_out(parsed(arguments)?));
         }
         // What was recorded until then is written.
         command => {
@@ -116,7 +127,7 @@ pub(crate) fn run() -> Outcome {
         }
     }
     match loading(&command) {
-        Some(relayed) => relayed.run(std::env::args_os().skip(1)),
+        Some(relayed) => relayed.run(arguments),
         None => carry_out(command),
     }
 }
@@ -133,16 +144,23 @@ fn loading(command: &Command) -> Option<Relayed> {
             let bounds = Bounds { deadline: Some(it.deadline()), ..Bounds::default() };
             return Some(Relayed { name: of_template(it.template.as_ref()), bounds, limits: SMALL });
         }
-        Command::Pack(it) => (of_template(it.library.first().or(it.template.as_ref())), it.patience, SMALL),
-        Command::Map(it) => (shown(it.template.as_ref().unwrap_or(&it.spacecraft)), it.patience, SMALL),
-        Command::Size(it) => (of_template(it.template.as_ref()), it.patience, large(1)),
-        Command::Ephemeris(it) => (shown(&it.simulated()), it.patience, large(1)),
-        Command::Plan(plan::Plan::Momentum(it) | plan::Plan::Flyby(it)) => {
-            (of_template(it.template.as_ref()), it.patience, large(1))
+        Command::Pack(it) => {
+            let library = it.library.first().or(it.reader.template.as_ref());
+            (of_template(library), it.reader.patience, SMALL)
         }
-        Command::Plan(plan::Plan::Leg(it)) => (of_template(it.template.as_ref()), it.patience, large(1)),
-        Command::Refit(it) => (of_template(it.template.as_ref()), it.patience, large(1)),
-        Command::Plan(plan::Plan::Spin(it)) => (of_template(it.options.fmu.as_ref()), it.patience, large(1)),
+        Command::Map(it) => {
+            let read = it.reader.template.as_ref().unwrap_or(&it.spacecraft);
+            (shown(read), it.reader.patience, SMALL)
+        }
+        Command::Ephemeris(it) => (shown(&it.simulated()), it.reader.patience, large(1)),
+        Command::Size(size::Size { reader, .. })
+        | Command::Refit(refit::Refit { reader, .. })
+        | Command::Plan(plan::Plan { by_file: Some(_), reader, .. }) => {
+            (of_template(reader.template.as_ref()), reader.patience, large(1))
+        }
+        Command::Plan(plan::Plan { spin: Some(plan::SpinCommand::Spin(it)), .. }) => {
+            (of_template(it.options.template.as_ref()), it.patience, large(1))
+        }
         Command::Study(it) => (it.name.clone(), it.patience, large(1)),
         _ => return None,
     };
@@ -167,16 +185,15 @@ fn carry_out(mut command: Command) -> Outcome {
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::SweepInChild(arguments) => sweep::run_in_child(arguments),
         Command::New(arguments) => new::run(&arguments),
-        Command::Man(arguments) => manual::run(&arguments, Arguments::command()),
+        Command::Man(arguments) => manual::run(&arguments, program()),
         Command::Draw(arguments) => draw::run(&arguments),
         Command::Map(arguments) => map::run(&arguments),
         Command::Size(arguments) => size::run(&arguments),
         Command::Pack(arguments) => pack::run(&arguments),
-        Command::Schema(arguments) => schema::run(&arguments),
         Command::Ephemeris(arguments) => ephemeris::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Plot(arguments) => plot::run(&arguments),
-        Command::Completions(arguments) => completions::run(&arguments, &Arguments::command()),
+        Command::Completions(arguments) => completions::run(&arguments, &program()),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Refit(arguments) => refit::run(&arguments),
         Command::Study(arguments) => study::run(&arguments),
@@ -191,6 +208,6 @@ mod tests {
 
     #[test]
     fn the_arguments_are_well_formed() {
-        Arguments::command().debug_assert();
+        program().debug_assert();
     }
 }

@@ -24,17 +24,22 @@ mod schema;
 mod size;
 mod study;
 mod sweep;
+mod usage;
 mod wire;
 
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    app::run().unwrap_or_else(|error| {
-        terminal::note(&format!("heliotorque: {}", fmi::Error::chain(error.as_ref())));
-        if isolation::interrupt::raised() {
-            ExitCode::from(isolation::interrupt::INTERRUPTED)
-        } else {
-            ExitCode::FAILURE
-        }
-    })
+    let status = app::run().map_or_else(
+        |error| {
+            terminal::note(&format!("heliotorque: {}", fmi::Error::chain(error.as_ref())));
+            if isolation::interrupt::raised() {
+                files::outcome::Answer::Interrupted as u8
+            } else {
+                files::outcome::TROUBLE
+            }
+        },
+        |answer| answer as u8,
+    );
+    ExitCode::from(status)
 }

@@ -20,7 +20,7 @@ PROGRAM = "heliotorque"
 PIECES_PER_THREAD = 4
 # Lines of a failed program's words that are shown.
 LINES_SHOWN = 20
-# Status of `heliotorque sweep` where a run failed, and where it is refused: then it prints no table.
+# Status of `heliotorque sweep` whose table is complete and has failed runs; a refused campaign has 2.
 SOME_FAILED = 1
 
 
@@ -35,7 +35,7 @@ def table(arguments, program=PROGRAM, output="-"):
         done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True)
     except OSError as error:
         raise SweepError(f"{program}: {error.strerror}; allowed: the heliotorque program, see --heliotorque") from None
-    if done.returncode != 0 and not (done.returncode == SOME_FAILED and done.stdout.startswith(b"run,")):
+    if done.returncode not in (0, SOME_FAILED):
         said = "\n".join(done.stderr.decode(errors="replace").splitlines()[-LINES_SHOWN:])
         raise SweepError(f"{' '.join(command)}: ended with {done.returncode}: {said}")
     return done.stdout

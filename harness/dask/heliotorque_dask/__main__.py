@@ -37,7 +37,8 @@ def main():
             if not arguments.scheduler:
                 cluster.close()
     except (SweepError, OSError) as error:
-        sys.exit(f"heliotorque_dask: {error}")
+        print(f"heliotorque_dask: {error}", file=sys.stderr)
+        sys.exit(2)
     print(f"{arguments.output}: {runs} runs" + (f", {len(failed)} failed" if failed else ""), file=sys.stderr)
     sys.exit(1 if failed else 0)
 

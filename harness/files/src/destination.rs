@@ -21,6 +21,11 @@ use crate::{
 const STDOUT: &str = "-";
 const SYSTEM_STDOUT: [&str; 3] = ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
 
+/// Whether a path is `-` or one of the system's names for the standard output.
+pub fn is_stdout(path: &Path) -> bool {
+    path == Path::new(STDOUT) || cfg!(unix) && SYSTEM_STDOUT.iter().any(|name| path == Path::new(name))
+}
+
 /// A file that can be written. Until its new content is complete, what stood in it stays.
 #[derive(Debug)]
 pub struct Destination {
@@ -35,8 +40,7 @@ impl Destination {
     /// cannot be written, and what is one of `inputs` (files, or folders with all that is in them), under whatever
     /// name. Folders are not created.
     pub fn open(path: &Path, option: &'static str, inputs: &[&Path]) -> Result<Self, String> {
-        if path == Path::new(STDOUT) || cfg!(unix) && SYSTEM_STDOUT.iter().any(|name| path == Path::new(name))
-        {
+        if is_stdout(path) {
             return Ok(Self { path: path.to_owned(), option, target: None });
         }
         let refuse = |what: String| format!("{}: {what}: see {option}", path.display());

@@ -20,7 +20,7 @@ mod place;
 mod system;
 mod temporary;
 
-pub use destination::{Destination, Growing};
+pub use destination::{Destination, Growing, is_stdout};
 pub use entries::Entries;
 pub use folder::{OutputFolder, leads_below, remove};
 pub use input::{MAX_TABLE_BYTES, MAX_TEXT_BYTES, kind, open, open_at_most, read, read_at_most, read_text};

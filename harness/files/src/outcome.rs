@@ -1,16 +1,59 @@
-//! Outcomes of commands.
-
-use std::process::ExitCode;
+//! Exit status of every command, and how text and files are handed over.
 
 use crate::Destination;
 
-/// The exit status, or why the command failed.
-pub type Outcome = Result<ExitCode, Box<dyn std::error::Error>>;
+/// Answer of a command that came to its end, by its exit status; one that did not ends with [`TROUBLE`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Answer {
+    /// Done.
+    Yes = 0,
+    /// Tables differ, a check failed, a plan is infeasible, a limit is broken, runs failed.
+    No = 1,
+    /// Ctrl-C or another signal ended it.
+    Interrupted = 130,
+}
+
+/// Exit status where arguments, a file or an FMU do not let the command do its work; clap's own for usage.
+pub const TROUBLE: u8 = 2;
+
+/// Exit statuses as every help and every page of the manual lists them.
+pub const STATUSES: [(&str, &str); 4] = [
+    ("0", "done"),
+    (
+        "1",
+        "the answer is no: tables differ, a check failed, a plan is infeasible, a limit is broken, runs failed",
+    ),
+    ("2", "trouble with arguments, a file or an FMU"),
+    ("130", "interrupted"),
+];
+
+/// The answer of a command, or why it could not be found.
+pub type Outcome = Result<Answer, Box<dyn std::error::Error>>;
+
+impl Answer {
+    /// Returns the answer of this status.
+    pub fn of_status(status: u8) -> Option<Self> {
+        [Self::Yes, Self::No, Self::Interrupted].into_iter().find(|it| *it as u8 == status)
+    }
+}
+
+impl From<bool> for Answer {
+    fn from(is_so: bool) -> Self {
+        if is_so { Self::Yes } else { Self::No }
+    }
+}
+
+/// Answers no for a reason.
+pub fn no(reason: &str) -> Outcome {
+    terminal::note(&format!("heliotorque: {reason}"));
+    Ok(Answer::No)
+}
 
 /// Prints what a command came to.
 pub fn printed(text: &str) -> Outcome {
     terminal::print(text)?;
-    Ok(ExitCode::SUCCESS)
+    Ok(Answer::Yes)
 }
 
 /// Writes a file and tells of it: on the standard output, unless that takes the file.
@@ -21,7 +64,7 @@ pub fn written(destination: Destination, content: &[u8], report: &str) -> Outcom
         return printed(report);
     }
     terminal::note(report);
-    Ok(ExitCode::SUCCESS)
+    Ok(Answer::Yes)
 }
 
 /// Writes files, and notes their names.
@@ -43,7 +86,7 @@ pub fn write_all(
 pub fn refused(file: &str, problems: &str, kind: &str) -> Outcome {
     terminal::print(problems)?;
     terminal::note(&format!("{file}: {}, judged as {kind}", problem_count(problems, file)));
-    Ok(ExitCode::FAILURE)
+    Ok(Answer::No)
 }
 
 /// How many problems of a file a message tells, the unlisted ones among them: `1 problem`, `3 problems`.

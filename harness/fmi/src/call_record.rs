@@ -1,11 +1,15 @@
 //! FMI call in progress, recorded in memory that another process can read.
 
-use std::sync::{
-    OnceLock,
-    atomic::{AtomicU64, Ordering},
+use std::{
+    fs::File,
+    io::Write,
+    sync::{
+        OnceLock,
+        atomic::{AtomicU64, Ordering},
+    },
 };
 
-use model_description::{call_table::Function, describe};
+use model_description::{Status, call_table::Function, describe};
 
 /// The words of a [`CallRecord`]: the call in progress (0: none), how many were begun, the last one begun, its
 /// arguments, which instance they are made to.
@@ -19,6 +23,26 @@ static RECORD: OnceLock<&'static CallRecord> = OnceLock::new();
 /// From now on records every call that this process makes; the first record stays.
 pub fn record_calls(record: &'static CallRecord) {
     let _ = RECORD.set(record);
+}
+
+static LOG: OnceLock<File> = OnceLock::new();
+
+/// From now on writes every recorded call with its answer to a file, a line each; the first file stays.
+pub fn log_calls(file: File) {
+    let _ = LOG.set(file);
+}
+
+/// Writes to the log of calls. A full disk does not end the simulation.
+fn log(text: &str) {
+    let _ = LOG.get().map(|mut file| file.write_all(text.as_bytes()));
+}
+
+/// Logs the answer of the call in progress.
+#[inline]
+pub(crate) fn log_status(status: Option<Status>) {
+    if LOG.get().is_some() {
+        log(&status.map_or_else(|| " unknown status".to_owned(), |status| format!(" {status}")));
+    }
 }
 
 /// The number of a symbol; a name that there is not does not compile.
@@ -77,6 +101,11 @@ pub(crate) fn enter_with(number: u64, times_s: [f64; 2]) -> CallInProgress {
         begun.store(begun.load(Ordering::Relaxed).wrapping_add(1), Ordering::Relaxed);
         in_progress.store(number, Ordering::Release);
     }
+    if let (Some(record), Some(_)) = (record, LOG.get()) {
+        let RecordedCalls { in_progress, instance, .. } = recorded_calls(record);
+        let of = instance.map_or_else(String::new, |instance| format!("instance {instance}: "));
+        log(&format!("{of}{}", in_progress.unwrap_or_default()));
+    }
     CallInProgress(record)
 }
 
@@ -85,6 +114,9 @@ impl Drop for CallInProgress {
     fn drop(&mut self) {
         if let Some([in_progress, ..]) = self.0 {
             in_progress.store(0, Ordering::Release);
+            if LOG.get().is_some() {
+                log("\n");
+            }
         }
     }
 }

@@ -39,7 +39,7 @@ pub(crate) fn kind(path: &Path) -> Option<&'static str> {
         return Some("it is an XML file, allowed: a ZIP archive with a modelDescription.xml in it");
     }
     if path.extension().is_some_and(|it| it == "toml") || text.lines().find_map(is_toml) == Some(true) {
-        return Some("it is a TOML file: see `heliotorque check` and `heliotorque pack --spacecraft`");
+        return Some("it is a TOML file: see `heliotorque check` and `heliotorque pack`");
     }
     Some("it is a text file, allowed: a ZIP archive")
 }

@@ -35,7 +35,7 @@ mod watch;
 pub use abi::{Binary, Callbacks, Described, SharedWords, set_locale};
 pub use archive::{ArchiveLimits, path_inside, unpack};
 pub use call_record::{
-    CALL_RECORD_WORDS, CallRecord, RecordedCalls, call_in_progress, record_calls, record_instance,
+    CALL_RECORD_WORDS, CallRecord, RecordedCalls, call_in_progress, log_calls, record_calls, record_instance,
     recorded_calls, step_begin_s,
 };
 pub use checker::Checking;

@@ -21,6 +21,8 @@ pub struct Options<'a> {
     pub stop_s: Option<f64>,
     /// Communication step in s; otherwise the default experiment's, otherwise a hundredth of the run.
     pub step_s: Option<f64>,
+    /// Tolerance of the experiment; otherwise the default experiment's.
+    pub tolerance: Option<f64>,
     /// Record the point nearest to each multiple of this time, in s; otherwise every point.
     pub record_every_s: Option<f64>,
     /// Record at these times instead, in s, which grow from the start on: a step that one of them cuts is taken in pieces,
@@ -213,7 +215,8 @@ fn run_steps(
     options: &mut Options<'_>,
     record: &mut dyn FnMut(&mut Instance, f64) -> Result<(), Error>,
 ) -> Result<Ended, Error> {
-    let tolerance = fmu.description().default_experiment.and_then(|default| default.tolerance);
+    let default = fmu.description().default_experiment;
+    let tolerance = options.tolerance.or_else(|| default.and_then(|default| default.tolerance));
     instance.setup_experiment(tolerance, times.start_s, Some(times.stop_s))?;
     initialize(instance, options.sets.iter().map(|(name, value)| (name, value)))?;
     let mut inputs = options.inputs.map(|table| InputSetter::new(fmu, table, options.input_derivatives));

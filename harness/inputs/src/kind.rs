@@ -152,13 +152,10 @@ impl FileKind {
     pub fn remedy(self, file: &str) -> String {
         match self {
             Self::Spacecraft => format!(
-                "`heliotorque pack --spacecraft {file}` makes an FMU of it, a mission (`heliotorque new mission`) simulates it"
+                "`heliotorque pack {file}` makes an FMU of it, a mission (`heliotorque new mission`) simulates it"
             ),
             Self::Mission => format!("run it: `heliotorque run {file}`"),
-            Self::Plan => format!(
-                "`heliotorque plan momentum {file} --output DIR` carries it out, with [flyby] `heliotorque plan flyby`"
-            ),
-            Self::Leg => format!("`heliotorque plan leg {file} --output DIR` carries it out"),
+            Self::Plan | Self::Leg => format!("`heliotorque plan {file} --output DIR` carries it out"),
             Self::Campaign => format!("`heliotorque sweep {file}` simulates it"),
             Self::Timeline | Self::Ephemeris => {
                 let word = self.word();

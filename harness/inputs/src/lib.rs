@@ -4,6 +4,7 @@
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
 pub mod campaign;
+pub mod ending;
 pub mod epoch;
 pub mod home;
 pub mod kind;
@@ -13,6 +14,5 @@ pub mod mission;
 pub mod plan;
 pub mod reading;
 pub mod schema;
-pub mod svg_path;
 pub mod values;
 pub mod variables;

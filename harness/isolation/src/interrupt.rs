@@ -5,8 +5,7 @@ use std::{
     sync::atomic::{AtomicBool, Ordering},
 };
 
-/// The usual exit status of a program that Ctrl-C ended.
-pub const INTERRUPTED: u8 = 130;
+use files::outcome::Answer;
 
 static RAISED: AtomicBool = AtomicBool::new(false);
 
@@ -17,7 +16,7 @@ pub fn listen(patient: bool, end_children: fn()) -> Result<(), ctrlc::Error> {
         if RAISED.swap(true, Ordering::Relaxed) || !patient {
             end_children();
             files::remove_temporaries();
-            process::exit(i32::from(INTERRUPTED));
+            process::exit(Answer::Interrupted as i32);
         }
     })
 }

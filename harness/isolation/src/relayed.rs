@@ -3,14 +3,16 @@
 use std::{
     ffi::OsString,
     io::{self, Write},
-    process::ExitCode,
     sync::{
         Arc, Mutex, PoisonError,
         atomic::{AtomicBool, Ordering},
     },
 };
 
-use files::{Scratch, outcome::Outcome};
+use files::{
+    Scratch,
+    outcome::{Answer, Outcome},
+};
 use terminal::{Relay, Screen};
 
 use super::{
@@ -19,7 +21,6 @@ use super::{
     printed::Shown,
     supervisor::{Bounds, ChildProcess},
 };
-use crate::interrupt::INTERRUPTED;
 
 /// Kinds of frames: bytes of the standard output, a note, a progress bar, the end of the command, its failure.
 const OUTPUT: u8 = 1;
@@ -30,8 +31,6 @@ const FAILED: u8 = 5;
 
 /// Bytes of the standard output in one frame.
 const AT_ONCE: usize = 1 << 20;
-/// Exit statuses that a command has.
-const STATUSES: [u8; 3] = [0, 1, INTERRUPTED];
 
 /// Whether this process is such a child.
 static IS_CHILD: AtomicBool = AtomicBool::new(false);
@@ -65,7 +64,7 @@ impl Relayed {
         let own = own.into_iter().flatten().chain([OsString::from("--")]);
         let child = ChildProcess::new(own.chain(arguments), self.limits, Some(scratch.path()))
             .map_err(|error| format!("the process of the FMU cannot be started: {error}"))?;
-        let mut ended: Option<Result<u8, String>> = None;
+        let mut ended: Option<Result<Answer, String>> = None;
         let mut shown = Shown::new(&self.name);
         let supervised = child.supervise(
             self.bounds,
@@ -84,7 +83,7 @@ impl Relayed {
         }
         match (ended, supervised.fault()) {
             (Some(Err(why)), _) => Err(why.into()),
-            (Some(Ok(status)), None) => Ok(ExitCode::from(status)),
+            (Some(Ok(answer)), None) => Ok(answer),
             (_, fault) => {
                 let what = fault.unwrap_or_else(|| supervised.without_result());
                 Err(format!("{}: {what}", self.name).into())
@@ -94,7 +93,7 @@ impl Relayed {
 }
 
 /// Shows a frame; the exit status or the failure with the last one.
-fn take(kind: u8, mut payload: Payload<'_>) -> Result<Option<Result<u8, String>>, String> {
+fn take(kind: u8, mut payload: Payload<'_>) -> Result<Option<Result<Answer, String>>, String> {
     match kind {
         OUTPUT => {
             let bytes = payload.bytes().ok_or(NOT_REQUESTED)?;
@@ -109,7 +108,7 @@ fn take(kind: u8, mut payload: Payload<'_>) -> Result<Option<Result<u8, String>>
         BAR => terminal::show_bar(&payload.text().ok_or(NOT_REQUESTED)?),
         ENDED => {
             let status = payload.word().and_then(|status| u8::try_from(status).ok());
-            return Ok(Some(Ok(status.filter(|status| STATUSES.contains(status)).ok_or(NOT_REQUESTED)?)));
+            return Ok(Some(Ok(status.and_then(Answer::of_status).ok_or(NOT_REQUESTED)?)));
         }
         FAILED => return Ok(Some(Err(payload.text().ok_or(NOT_REQUESTED)?))),
         _ => return Err(NOT_REQUESTED.to_owned()),
@@ -125,17 +124,14 @@ pub fn serve(screen: Screen, command: impl FnOnce() -> Outcome) -> Outcome {
     let outcome = command();
     let mut link = link.lock().unwrap_or_else(PoisonError::into_inner);
     match outcome {
-        Ok(status) => {
-            let number = STATUSES.into_iter().find(|number| ExitCode::from(*number) == status).unwrap_or(1);
-            link.send(ENDED, |payload| payload.push(u64::from(number)))?;
-        }
+        Ok(answer) => link.send(ENDED, |payload| payload.push(answer as u64))?,
         Err(error) => {
             let text = fmi::Error::chain(error.as_ref());
             link.send(FAILED, |payload| push_text(payload, &text))?;
         }
     }
     // The parent has the status; how this process ends tells whether the library let it.
-    Ok(ExitCode::SUCCESS)
+    Ok(Answer::Yes)
 }
 
 /// Hands everything that is shown to the parent.

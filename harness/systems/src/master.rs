@@ -55,7 +55,7 @@ impl Running {
         system: &System,
         (master, first): (Master, FirstExchange),
         times: &Times,
-        options: &InstanceOptions,
+        (options, tolerance): (&InstanceOptions, Option<f64>),
         sets: &[(usize, String, Value)],
     ) -> Result<Self, Error> {
         let (ports, signals) = ports(system);
@@ -70,7 +70,8 @@ impl Running {
             let given = part.parameters.iter().map(|(name, value)| (name, value));
             record_instance(number);
             let instance = &mut running.instances[number];
-            let tolerance = part.fmu.description().default_experiment.and_then(|it| it.tolerance);
+            let default = part.fmu.description().default_experiment;
+            let tolerance = tolerance.or_else(|| default.and_then(|it| it.tolerance));
             instance.setup_experiment(tolerance, times.start_s, Some(times.stop_s))?;
             fmi::initialize(instance, given.chain(own))?;
         }

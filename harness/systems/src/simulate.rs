@@ -35,7 +35,7 @@ pub fn simulate_into(
     if let Some(inputs) = &mut inputs {
         sets.extend(inputs.at_start(times.start_s));
     }
-    let mut running = Running::start(system, way, &times, &options.instance, &sets)?;
+    let mut running = Running::start(system, way, &times, (&options.instance, options.tolerance), &sets)?;
     record(system, &mut recorder, &mut running, times.start_s, rows)?;
     let steps = times.steps();
     for k in 0..steps {

@@ -3,13 +3,13 @@
 use std::{
     cell::RefCell,
     ffi::OsString,
+    fs::File,
     io,
     path::{Path, PathBuf},
-    process::ExitCode,
     sync::atomic::{AtomicBool, Ordering},
 };
 
-use files::outcome::Outcome;
+use files::outcome::{Answer, Outcome};
 use fmi::{Collector, Ended, Error, LogMessage, Recording, Row, Rows, Status, Watcher};
 use isolation::{
     Bounds, ChildProcess, EndReason, Link, NOT_REQUESTED, Payload, Shown, large, path_option, push_text,
@@ -209,13 +209,16 @@ pub fn run(arguments: &RunInChild) -> Outcome {
         }
     }
     // The failure is reported; the parent reads how the process ends.
-    Ok(ExitCode::SUCCESS)
+    Ok(Answer::Yes)
 }
 
 fn simulation(arguments: &RunInChild, link: &mut Link) -> Result<Simulation, Box<dyn std::error::Error>> {
     let subject = Subject::open(&arguments.unpacked_in)?;
     let simulated = Simulated::new(&arguments.run)?;
     let settings = Settings::new(&subject, &simulated, arguments.input_copy.as_deref())?;
+    if let Some(path) = &arguments.run.log_calls {
+        fmi::log_calls(File::options().append(true).open(path)?);
+    }
     let cancel_word = link.cancel_word();
     let cancel = AtomicBool::new(false);
     let mut check_cancel = |_: f64| cancel.store(cancel_word.load(Ordering::Relaxed) != 0, Ordering::Relaxed);

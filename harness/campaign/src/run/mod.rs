@@ -12,16 +12,18 @@ use std::{
     fs::File,
     io,
     path::{Path, PathBuf},
-    process::ExitCode,
     time::Instant,
 };
 
 pub use child::{RunInChild, run as run_in_child};
 pub(crate) use child::{push_row, take_row};
-use files::{Destination, Scratch, outcome::Outcome};
+use files::{
+    Destination, Scratch,
+    outcome::{Answer, Outcome},
+};
 use fmi::{Collector, Ended, RecordedPoints, Times};
-use inputs::{epoch, variables};
-use isolation::{Bounds, interrupt::INTERRUPTED};
+use inputs::{ending::by_ending, epoch, variables};
+use isolation::Bounds;
 pub use options::Run;
 use packing::{carried, pointing};
 pub use settings::Settings;
@@ -31,6 +33,9 @@ use tables::output::{self, Known, LimitChecks, Origin, Outputs, VisitTable};
 
 /// Warnings of an FMU that are shown without `--log`.
 const MAX_WARNINGS: usize = 20;
+
+/// Endings of the files that a run writes: table, picture.
+const FORMATS: [&str; 2] = ["csv", "svg"];
 
 /// Why a run ends before its stop.
 const LOST_READER: &str = "nobody reads the standard output any more";
@@ -60,9 +65,7 @@ impl Prepared {
     /// # Errors
     /// Whatever is refused, by the flag or the mission's line.
     pub fn new(arguments: &Run) -> Result<Self, Box<dyn Error>> {
-        if let Some(path) = &arguments.plot {
-            inputs::svg_path::check_svg_path(path, "--plot")?;
-        }
+        by_ending(&arguments.output, FORMATS)?;
         let simulated = Simulated::new(arguments)?;
         let (subject, packed) = simulated.open()?;
         subject.check_options(&simulated.run)?;
@@ -139,6 +142,13 @@ pub fn run(arguments: &Run) -> Outcome {
     let has_limits = !limits.is_empty();
     let mut checks = LimitChecks::new(limits);
     let mut collector = Collector::new(described, &positions);
+    if let Some(path) = &arguments.log_calls {
+        let log = Destination::open(path, "--log-calls", &simulated.reads())?;
+        if log.is_stdout() {
+            return Err("-: found the standard output, allowed: a file: see --log-calls".into());
+        }
+        log.fill(|_| Ok(()))?;
+    }
     let child = child::start(&subject, input_copy.as_deref())
         .map_err(|error| format!("the process of the FMU cannot be started: {error}"))?;
     let bounds = Bounds { call_s: arguments.timeout, ..Bounds::default() };
@@ -173,7 +183,7 @@ pub fn run(arguments: &Run) -> Outcome {
     if outputs.has_lost_reader() {
         // Nobody is there for the rest; what is drawn and checked at the end is not, and that is no success.
         return if requested.plots.is_empty() && !has_limits {
-            Ok(ExitCode::SUCCESS)
+            Ok(Answer::Yes)
         } else {
             Err(format!("{LOST_READER}: the run ends at {last} s, without pictures and limits").into())
         };
@@ -224,13 +234,13 @@ pub fn run(arguments: &Run) -> Outcome {
             terminal::note(&format!(
                 "interrupted at {last} s; what was recorded until then is written{kept}"
             ));
-            return Ok(ExitCode::from(INTERRUPTED));
+            return Ok(Answer::Interrupted);
         }
     }
     match result.fault {
         // The recording is complete, the FMU is not what it should be.
         Some(fault) => Err(fault.into()),
-        None if !checks.is_kept() => Ok(ExitCode::FAILURE),
-        None => Ok(ExitCode::SUCCESS),
+        None if !checks.is_kept() => Ok(Answer::No),
+        None => Ok(Answer::Yes),
     }
 }

@@ -30,14 +30,16 @@ pub struct Run {
     pub record: Vec<String>,
     /// Time between recorded rows, in s.
     pub every: Option<f64>,
-    /// File or folder to write.
-    pub output: Option<PathBuf>,
-    /// Picture to write.
-    pub plot: Option<PathBuf>,
+    /// Table and picture to write, by their endings.
+    pub output: Vec<PathBuf>,
     /// FMU whose library reads the files.
     pub template: Option<PathBuf>,
     /// Longest time of a call, in s.
     pub timeout: Option<f64>,
+    /// Tolerance of the experiment; otherwise the FMU's.
+    pub tolerance: Option<f64>,
+    /// File of the calls.
+    pub log_calls: Option<PathBuf>,
     /// Whether the log of the FMU is shown.
     pub log: bool,
     /// Whether nothing is printed.

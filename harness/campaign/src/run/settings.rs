@@ -5,6 +5,7 @@ use std::{path::Path, sync::atomic::AtomicBool};
 use files::Scratch;
 use fmi::{Ended, Fmu, InputTable, InstanceOptions, LogMessage, Options, Rows, Times, Watcher};
 use inputs::{
+    ending::{OPTION, by_ending},
     epoch::Dates,
     mission::{self, Limit, Resolved},
     values::all_names,
@@ -14,7 +15,7 @@ use model_description::{Description, VariableRole};
 use systems::{FirstExchange, Master};
 use tables::output::{OutputFile, Plot, Requested};
 
-use super::{options::Run, simulated::Simulated, subject::Subject};
+use super::{FORMATS, options::Run, simulated::Simulated, subject::Subject};
 
 /// Arguments resolved for an FMU or a system.
 pub struct Settings {
@@ -62,11 +63,12 @@ impl Settings {
             option,
             home: mission.as_ref().map(|mission| mission.file.parent().unwrap_or(Path::new("")).to_owned()),
         };
-        let given = arguments.output.as_deref().map(|path| OutputFile::of_option(path, "--output"));
-        let table = given
+        let given = by_ending(&arguments.output, FORMATS)?;
+        let [table, picture] = given.map(|path| path.map(|path| OutputFile::of_option(path, OPTION)));
+        let table = table
             .or_else(|| Some(of_mission(mission.as_ref()?.output.as_deref()?, "`output` in the mission")));
-        let mut plots: Vec<Plot> = match &arguments.plot {
-            Some(path) => vec![Plot { file: OutputFile::of_option(path, "--plot"), names: None }],
+        let mut plots: Vec<Plot> = match picture {
+            Some(file) => vec![Plot { file, names: None }],
             None => {
                 let plots = mission.iter().flat_map(|mission| &mission.plots).zip(&resolved.plots);
                 let plot = |(plot, shown): (&mission::Plot, &Option<Vec<usize>>)| Plot {
@@ -141,6 +143,7 @@ impl Settings {
             start_s: arguments.start,
             stop_s: Some(self.times.stop_s),
             step_s: arguments.step,
+            tolerance: arguments.tolerance,
             record_every_s: arguments.every,
             sets: self.sets.clone(),
             inputs: self.inputs.as_ref(),

@@ -1,8 +1,11 @@
 //! Subject of a run: the arguments of `heliotorque run` over those of a mission, and the FMU packed from its files.
 
-use std::{error::Error, ffi::OsString, path::Path, process::ExitCode};
+use std::{error::Error, ffi::OsString, path::Path};
 
-use files::{Scratch, outcome::Outcome};
+use files::{
+    Scratch,
+    outcome::{Answer, Outcome},
+};
 use fmi::Fmu;
 use inputs::{
     kind,
@@ -99,7 +102,7 @@ impl Simulated {
 /// Whatever the mission or the library refuses.
 pub fn assemble_into(mission: &Path, template: Option<&Path>, into: &Path) -> Outcome {
     assemble_files(&Mission::read(mission)?, template, into)?;
-    Ok(ExitCode::SUCCESS)
+    Ok(Answer::Yes)
 }
 
 fn assemble_files(mission: &Mission, template: Option<&Path>, into: &Path) -> Result<(), Box<dyn Error>> {

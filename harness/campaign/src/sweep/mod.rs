@@ -16,7 +16,6 @@ use std::{
     error::Error,
     ops::Range,
     path::Path,
-    process::ExitCode,
     sync::{
         atomic::{AtomicBool, Ordering},
         mpsc,
@@ -27,15 +26,12 @@ use std::{
 
 use files::{
     Destination, Growing, Part, Scratch,
-    outcome::{self, Outcome},
+    outcome::{self, Answer, Outcome},
     sidecar_of,
 };
 use fmi::{Fmu, csv};
 use inputs::{campaign::file::CampaignFile, library::Library};
-use isolation::{
-    interrupt::{self, INTERRUPTED},
-    large,
-};
+use isolation::{interrupt, large};
 
 use crate::run::{Settings, Subject};
 pub use options::Sweep;
@@ -133,7 +129,7 @@ fn print_values(started: &Started<'_>, folder: &Path) -> Outcome {
         let beside = Destination::open(&sidecar_of(output), OPTION, &started.inputs())?;
         started.write_beside(beside, &digests)?;
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(Answer::Yes)
 }
 
 fn carry_out(started: &Started<'_>, folder: &Path) -> Outcome {
@@ -178,7 +174,7 @@ fn carry_out(started: &Started<'_>, folder: &Path) -> Outcome {
     simulate(&pool, &mut table, (&mut taken, &progress))?;
     progress.finish_and_clear();
     if table.file.has_lost_reader() {
-        return Ok(ExitCode::SUCCESS);
+        return Ok(Answer::Yes);
     }
     let next = table.next;
     if next < runs.end {
@@ -230,7 +226,7 @@ fn interrupted(started: &Started<'_>, growing: Growing, next: u64) -> Outcome {
         format!("\n{rows} rows so far: {}; --resume goes on with them", path.display())
     });
     terminal::note(&format!("interrupted before run {next}{}", kept.unwrap_or_default()));
-    Ok(if interrupt::raised() { ExitCode::from(INTERRUPTED) } else { ExitCode::FAILURE })
+    Ok(if interrupt::raised() { Answer::Interrupted } else { Answer::No })
 }
 
 fn finish_series(started: &Started<'_>, series: Series) -> Result<Part, String> {

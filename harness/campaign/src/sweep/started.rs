@@ -1,6 +1,6 @@
 //! Campaign whose arguments were accepted, and how its runs ended.
 
-use std::{ops::Range, path::Path, process::ExitCode};
+use std::{ops::Range, path::Path};
 
 use files::Destination;
 use inputs::campaign::file::CampaignFile;
@@ -12,6 +12,7 @@ use super::{
     resolved::Campaign,
     worker::RunStatus,
 };
+use files::outcome::Answer;
 
 /// Option that names the table.
 pub(super) const OPTION: &str = "--output";
@@ -53,8 +54,8 @@ impl Counts {
         self.0[status as usize] += 1;
     }
 
-    pub(super) fn status(&self) -> ExitCode {
-        if self.0[RunStatus::Failed as usize] == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    pub(super) fn status(&self) -> Answer {
+        Answer::from(self.0[RunStatus::Failed as usize] == 0)
     }
 
     pub(super) fn text(&self) -> String {

@@ -2,11 +2,10 @@
 
 use std::{
     path::PathBuf,
-    process::ExitCode,
     sync::atomic::{AtomicBool, Ordering},
 };
 
-use files::outcome::Outcome;
+use files::outcome::{Answer, Outcome};
 use fmi::{Ended, Error, Fmu, Instance, InstanceOptions, Options, Row, Rows, Status, Value};
 use inputs::campaign::file::CampaignFile;
 use isolation::{Link, push_text};
@@ -72,7 +71,7 @@ pub fn run(arguments: &SweepInChild) -> Outcome {
         let text = Error::chain(error.as_ref());
         link.send(REFUSED, |payload| push_text(payload, &text))?;
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(Answer::Yes)
 }
 
 fn simulate_all(arguments: &SweepInChild, link: &mut Link) -> Result<(), Box<dyn std::error::Error>> {

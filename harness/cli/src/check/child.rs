@@ -1,9 +1,12 @@
 //! Runs a probe in a process of its own and reads its findings.
 
-use std::{ffi::OsString, path::PathBuf, process::ExitCode, time::Instant};
+use std::{ffi::OsString, path::PathBuf, time::Instant};
 
 use clap::Args;
-use files::{Scratch, outcome::Outcome};
+use files::{
+    Scratch,
+    outcome::{Answer, Outcome},
+};
 use fmi::{
     Fmu,
     conformance::{Finding, Verdict},
@@ -58,7 +61,7 @@ pub(crate) fn run_probe(arguments: &Probe) -> Outcome {
         })?;
     }
     link.send(FINISHED, |_| {})?;
-    Ok(ExitCode::SUCCESS)
+    Ok(Answer::Yes)
 }
 
 fn decode(mut payload: Payload<'_>) -> Option<Finding> {

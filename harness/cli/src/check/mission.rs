@@ -4,18 +4,24 @@ use std::sync::atomic::AtomicBool;
 
 use campaign::run::{Prepared, Run, Settings, long_step};
 use fmi::Collector;
-use inputs::epoch;
-use packing::carried;
+use inputs::{epoch, kind::FileKind};
+use packing::{carried, check::Judged};
 
 use super::options::Check;
 
 /// Reads the file, packs what it names, finds every name and value in it and opens what it writes, as `run` does; then simulates
 /// the first step in this process.
-pub(super) fn checked(arguments: &Check) -> Result<String, String> {
-    summary(arguments).map_err(|error| fmi::Error::chain(error.as_ref()))
+pub(super) fn judged(arguments: &Check, file: &str) -> Judged {
+    match summary(arguments) {
+        Ok((summary, warnings)) => Judged::Taken { summary: format!("{file}: ok: {summary}"), warnings },
+        Err(error) => Judged::Refused {
+            problems: fmi::Error::chain(error.as_ref()),
+            kind: FileKind::Mission.to_string(),
+        },
+    }
 }
 
-fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
+fn summary(arguments: &Check) -> Result<(String, Vec<String>), Box<dyn std::error::Error>> {
     let run = Run { fmu: arguments.subject.clone(), template: arguments.template.clone(), ..Run::default() };
     let Prepared { simulated, subject, settings, .. } = &Prepared::new(&run)?;
     let Settings { times, requested, limits, sets, positions, inputs, .. } = settings;
@@ -27,20 +33,13 @@ fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
     let short = terminal::short;
     let begin = simulated.mission.as_ref().and_then(|mission| epoch::date(mission.epoch_s.as_ref()?.it));
     let begin = begin.unwrap_or_else(|| format!("{} s", short(times.start_s)));
-    let panels = carried::timeline::warnings(subject.description(), sets, &subject.parts());
-    let inputs: Vec<String> =
-        inputs.iter().flat_map(|it| it.warnings(subject.description(), times)).collect();
-    let logged = fmi::warnings(&messages).into_iter().map(str::to_owned).collect::<Vec<_>>();
-    let warnings = panels
-        .iter()
-        .chain(&long_step(times))
-        .chain(&inputs)
-        .chain(&logged)
-        .map(|it| format!("\nwarning: {it}"))
-        .collect::<String>();
+    let mut warnings = carried::timeline::warnings(subject.description(), sets, &subject.parts());
+    warnings.extend(long_step(times));
+    warnings.extend(inputs.iter().flat_map(|it| it.warnings(subject.description(), times)));
+    warnings.extend(fmi::warnings(&messages).into_iter().map(str::to_owned));
     let count = |count: usize, of: &str| format!("{count} {of}{}", if count == 1 { "" } else { "s" });
-    Ok(format!(
-        "{} runs from {begin} for {} in {} of {} s; {} recorded, {}, {}{warnings}",
+    let summary = format!(
+        "{} runs from {begin} for {} in {} of {} s; {} recorded, {}, {}",
         subject.name(),
         span(times.stop_s - times.start_s),
         count(usize::try_from(times.steps()).unwrap_or(usize::MAX), "step"),
@@ -48,7 +47,8 @@ fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
         count(requested.columns, "variable"),
         count(requested.plots.len(), "picture"),
         count(limits.len(), "limit"),
-    ))
+    );
+    Ok((summary, warnings))
 }
 
 /// A duration in the largest unit that it has more than one of.

@@ -7,10 +7,11 @@ mod child;
 mod files;
 mod mission;
 mod options;
+mod report;
 mod system;
 
 use std::{
-    process::ExitCode,
+    path::Path,
     time::{Duration, Instant},
 };
 
@@ -23,52 +24,39 @@ use packing::{carried, pointing};
 use ::files::outcome::Outcome;
 pub(crate) use child::{Probe, run_probe};
 pub(crate) use options::Check;
-
-/// A group of findings under one heading.
-struct Section {
-    title: String,
-    findings: Vec<Finding>,
-}
-
-impl Section {
-    fn new(title: impl Into<String>, findings: Vec<Finding>) -> Self {
-        Self { title: title.into(), findings }
-    }
-
-    /// The worst finding; what was skipped counts only where nothing else was found.
-    fn verdict(&self) -> Verdict {
-        let verdicts = || self.findings.iter().map(|finding| finding.verdict);
-        let worst = verdicts().filter(|verdict| *verdict != Verdict::Skipped).max();
-        worst.or_else(|| verdicts().max()).unwrap_or(Verdict::Good)
-    }
-}
+use report::{Listed, Section};
 
 /// Checks an FMU, a system or a spacecraft and prints the report.
 pub(crate) fn run(arguments: &Check) -> Outcome {
     if arguments.is_file() {
-        return match (arguments.is_static, &arguments.only) {
-            (false, None) => files::run(arguments),
+        return match (arguments.is_static, &arguments.probe) {
+            (false, None) => {
+                let file = arguments.subject.display().to_string();
+                report::print_judged(&file, &files::judged(arguments, &file)?, arguments.json)
+            }
             (true, _) => Err("--static is for an FMU: a spacecraft is only read".into()),
-            (false, Some(_)) => Err("--only is for an FMU: a spacecraft has no probes".into()),
+            (false, Some(_)) => Err("--probe is for an FMU: a spacecraft has no probes".into()),
         };
     }
     if systems::is_system(&arguments.subject) {
-        if arguments.only.is_some() || arguments.template.is_some() {
-            return Err("--only and --template are for an FMU or a spacecraft, and this is a system".into());
+        if arguments.probe.is_some() || arguments.template.is_some() {
+            return Err("--probe and --template are for an FMU or a spacecraft, and this is a system".into());
         }
+        check_there(&arguments.subject)?;
         return report(arguments, &[Section::new("system", system::findings(&arguments.subject))]);
     }
     if arguments.template.is_some() {
         return Err("--template is for a spacecraft (.toml): an FMU is checked by its own library".into());
     }
-    if let Some(only) = &arguments.only
+    if let Some(text) = &arguments.probe
         && !PROBES.iter().any(|probe| is_selected(arguments, probe))
     {
         let names: Vec<&str> = PROBES.iter().map(|probe| probe.name).collect();
         return Err(
-            format!("no probe's name contains {only:?}, allowed: {}: see --only", names.join(", ")).into()
+            format!("no probe's name contains {text:?}, allowed: {}: see --probe", names.join(", ")).into()
         );
     }
+    check_there(&arguments.subject)?;
     let fmu = match Fmu::open(&arguments.subject) {
         Ok(fmu) => fmu,
         Err(error) => {
@@ -83,15 +71,15 @@ pub(crate) fn run(arguments: &Check) -> Outcome {
     let folder = [(String::new(), fmu.folder().to_owned())];
     let windows = pointing::warnings(fmu.description(), &[], &pointing::windows_in(&folder));
     if !windows.is_empty() {
-        sections.push(Section::new("orbit", windows.into_iter().map(Finding::note).collect()));
+        sections.push(Section::new("orbit", windows.into_iter().map(Finding::note)));
     }
     let panels = carried::timeline::warnings(fmu.description(), &[], &folder);
     if !panels.is_empty() {
-        sections.push(Section::new("panels", panels.into_iter().map(Finding::note).collect()));
+        sections.push(Section::new("panels", panels.into_iter().map(Finding::note)));
     }
     sections.extend(carried::summaries(&fmu).into_iter().map(|(file, read)| match read {
         Ok(summary) => Section::new(file, vec![Finding::good(summary)]),
-        Err(problems) => Section::new(file, problems.lines().map(Finding::bad).collect()),
+        Err(problems) => Section::new(file, problems.lines().map(Finding::bad)),
     }));
     if !arguments.is_static && fmu.co_simulation().is_ok() {
         probe(arguments, &fmu, &mut sections);
@@ -99,9 +87,14 @@ pub(crate) fn run(arguments: &Check) -> Outcome {
     report(arguments, &sections)
 }
 
-/// Whether `--only` leaves a probe in.
+/// Refuses a file that is not there.
+fn check_there(path: &Path) -> Result<(), String> {
+    path.metadata().map(drop).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// Whether `--probe` leaves a probe in.
 fn is_selected(arguments: &Check, probe: &Probed) -> bool {
-    arguments.only.as_ref().is_none_or(|only| probe.name.contains(only.as_str()))
+    arguments.probe.as_ref().is_none_or(|text| probe.name.contains(text.as_str()))
 }
 
 /// Runs the probes with their trials until the time is over.
@@ -114,15 +107,15 @@ fn probe(arguments: &Check, fmu: &Fmu, sections: &mut Vec<Section>) {
     let rest = PROBES.iter().filter(|probe| usable && probe.name != "library");
     for probe in rest.filter(|probe| is_selected(arguments, probe)) {
         let trials = fmi::conformance::trials().filter(|trial| trial.probe == probe.name);
-        let mut findings = Vec::new();
+        let mut findings: Vec<Listed> = Vec::new();
         for trial in [None].into_iter().chain(trials.map(Some)) {
             if Instant::now() >= deadline.0 {
                 let what = format!("the {} s of the check are over (see --timeout)", deadline.1);
-                findings.push(Finding::skipped(what));
+                findings.push(Finding::skipped(what).into());
                 break;
             }
             findings.extend(match trial {
-                None => child::run(fmu, probe.name, deadline),
+                None => child::run(fmu, probe.name, deadline).into_iter().map(Into::into).collect(),
                 Some(trial) => try_out(fmu, trial, deadline),
             });
         }
@@ -134,12 +127,14 @@ fn probe(arguments: &Check, fmu: &Fmu, sections: &mut Vec<Section>) {
 const SENSELESS_PATIENCE: Duration = Duration::from_secs(5);
 
 /// Runs a trial; what an FMU that is lost in it leaves behind names the call.
-fn try_out(fmu: &Fmu, trial: &Trial, deadline: (Instant, f64)) -> Vec<Finding> {
+fn try_out(fmu: &Fmu, trial: &Trial, deadline: (Instant, f64)) -> Vec<Listed> {
     let soon = (Instant::now() + SENSELESS_PATIENCE, SENSELESS_PATIENCE.as_secs_f64());
     let deadline = if trial.senseless && soon.0 < deadline.0 { soon } else { deadline };
-    let mut findings = child::run(fmu, &trial.name(), deadline);
+    let mut findings: Vec<Listed> =
+        child::run(fmu, &trial.name(), deadline).into_iter().map(Into::into).collect();
     let hung = Instant::now() >= deadline.0;
-    for finding in findings.iter_mut().filter(|finding| finding.verdict == Verdict::Bad) {
+    let bad = findings.iter_mut().map(|it| &mut it.finding).filter(|it| it.verdict == Verdict::Bad);
+    for finding in bad {
         finding.text = format!("{}, {}: {}", trial.call, trial.what, finding.text);
         if trial.disputed || hung && trial.senseless {
             finding.verdict = Verdict::Note;
@@ -149,28 +144,5 @@ fn try_out(fmu: &Fmu, trial: &Trial, deadline: (Instant, f64)) -> Vec<Finding> {
 }
 
 fn report(arguments: &Check, sections: &[Section]) -> Outcome {
-    let mut text = format!("{}\n\n", arguments.subject.display());
-    for section in sections {
-        let worst = section.verdict();
-        text.push_str(&format!("{:>8}  {}\n", worst.word(), section.title));
-        for finding in &section.findings {
-            let shown = arguments.verbose || matches!(finding.verdict, Verdict::Note | Verdict::Bad);
-            if shown || worst == Verdict::Skipped {
-                let lines = finding.text.replace('\n', "\n            ");
-                text.push_str(&format!("          {:<8}{lines}\n", finding.verdict.word()));
-            }
-        }
-    }
-    let count = |verdict: Verdict| {
-        sections.iter().flat_map(|section| &section.findings).filter(|it| it.verdict == verdict).count()
-    };
-    text.push_str(&format!(
-        "\n{} good, {} skipped, {} to note, {} wrong",
-        count(Verdict::Good),
-        count(Verdict::Skipped),
-        count(Verdict::Note),
-        count(Verdict::Bad)
-    ));
-    terminal::print(&text)?;
-    Ok(if count(Verdict::Bad) == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+    report::print(&arguments.subject.display().to_string(), sections, arguments.verbose, arguments.json)
 }

@@ -23,10 +23,13 @@ pub(crate) struct Check {
     pub is_static: bool,
     /// For an FMU only: run the probes whose name contains this text
     #[arg(long, value_name = "TEXT", conflicts_with = "is_static")]
-    pub only: Option<String>,
+    pub probe: Option<String>,
     /// Longest time that the whole of it may take, in s or with a unit; what it does not come to then is skipped
     #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true, default_value = "2min")]
     pub timeout: f64,
+    /// Print one JSON object: counts and findings
+    #[arg(long)]
+    pub json: bool,
     /// Show every check, not only the findings
     #[arg(long, short)]
     pub verbose: bool,

@@ -1,11 +1,13 @@
 //! `heliotorque compare`: how far two tables are from each other, variable by variable.
 
+mod json;
 mod options;
 
-use std::process::ExitCode;
-
-use files::{Destination, outcome::Outcome};
-use inputs::svg_path::check_svg_path;
+use files::{
+    Destination,
+    outcome::{Answer, Outcome},
+};
+use inputs::ending::{OPTION, check_ending};
 pub(crate) use options::Compare;
 use tables::{
     compare::pairing::Pairing,
@@ -15,9 +17,9 @@ use tables::{
 /// Compares.
 pub(crate) fn run(arguments: &Compare) -> Outcome {
     let inputs = [arguments.first.as_path(), arguments.second.as_path()];
-    let plot = arguments.plot.as_deref().map(|path| {
-        check_svg_path(path, "--plot")?;
-        Destination::open(path, "--plot", &inputs)
+    let plot = arguments.output.as_deref().map(|path| {
+        check_ending(path, "svg")?;
+        Destination::open(path, OPTION, &inputs)
     });
     let plot = plot.transpose()?;
     let [first, second] = inputs.map(Table::read);
@@ -27,7 +29,11 @@ pub(crate) fn run(arguments: &Compare) -> Outcome {
     let mut found = fmi::reference::differences(&pairing.columns);
     found.sort_by(|a, b| b.fraction.total_cmp(&a.fraction));
     let tables = [&first, &second];
-    let text = tables::compare::report::text(tables, &pairing, &found, (&sidecar, arguments.tolerance));
+    let judged = (&sidecar, arguments.tolerance);
+    let text = match arguments.json {
+        true => serde_json::to_string_pretty(&json::object(tables, &pairing, &found, judged))?,
+        false => tables::compare::report::text(tables, &pairing, &found, judged),
+    };
     let takes_stdout = plot.as_ref().is_some_and(Destination::is_stdout);
     if let Some(destination) = plot {
         let svg = tables::compare::picture::svg(tables, &pairing, &found, &sidecar)?;
@@ -39,5 +45,5 @@ pub(crate) fn run(arguments: &Compare) -> Outcome {
         terminal::print(&text)?;
     }
     let is_beyond = found.iter().any(|it| it.fraction > arguments.tolerance);
-    Ok(if is_beyond { ExitCode::FAILURE } else { ExitCode::SUCCESS })
+    Ok(Answer::from(!is_beyond))
 }

@@ -17,7 +17,7 @@ The exit status is 0 where every variable differs by the tolerance at most, and 
 Example:
   heliotorque compare today.csv yesterday.csv
   heliotorque compare runs.csv dask.csv --tolerance 0
-  heliotorque compare 60s.csv 600s.csv --tolerance 1e-6 --plot difference.svg";
+  heliotorque compare 60s.csv 600s.csv --tolerance 1e-6 --output difference.svg";
 
 /// `heliotorque compare`.
 #[derive(Debug, Args)]
@@ -36,9 +36,12 @@ pub(crate) struct Compare {
         default_value = "1e-9"
     )]
     pub tolerance: f64,
+    /// Print one JSON object instead of the table
+    #[arg(long)]
+    pub json: bool,
     /// Draw what differs, the second table less the first, as SVG; - is the standard output
-    #[arg(long, value_name = "SVG")]
-    pub plot: Option<PathBuf>,
+    #[arg(long, short, value_name = "SVG")]
+    pub output: Option<PathBuf>,
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {

@@ -16,9 +16,9 @@ Example:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Draw {
-    /// The spacecraft, a TOML file as for `pack`; otherwise the shipped MESSENGER. A surface with `polygon_m` is drawn as that
-    /// outline, any other as a square of its area about its centre
-    pub spacecraft: Option<PathBuf>,
+    /// The spacecraft, a TOML file as for `pack`. A surface with `polygon_m` is drawn as that outline, any other as a square of
+    /// its area about its centre
+    pub spacecraft: PathBuf,
     /// Show these views only: front (from the Sun, -Y), side (from +X), top (from +Z), perspective, all
     #[arg(
         long,

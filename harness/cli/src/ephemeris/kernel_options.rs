@@ -10,7 +10,7 @@ use planner::ephemeris::spk::{self, Center};
 pub(crate) struct KernelOptions {
     /// Fit what this SPK kernel of SPICE places, instead of a flight: planets (de440s.bsp) or a spacecraft; repeatable, where
     /// two place a body the later one counts
-    #[arg(long, value_name = "BSP", conflicts_with_all = ["source", "set"])]
+    #[arg(long, value_name = "BSP", conflicts_with_all = ["template", "set"])]
     pub kernel: Vec<PathBuf>,
     /// With --kernel: from where positions count, sun, mercury, venus, earth, mars, jupiter or a NAIF id, where 1, 2, 4 and 5
     /// are the barycentres of planets with their moons; otherwise mercury

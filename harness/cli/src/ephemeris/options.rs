@@ -5,13 +5,12 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use inputs::{
     epoch::{DAY_S, date_option},
-    home,
-    values::{number, span},
+    values::{positive, span},
 };
 use planner::ephemeris::{EphemerisRequest, OnboardTarget};
 
 use super::kernel_options::KernelOptions;
-use crate::patience::Patience;
+use crate::patience::Reader;
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
@@ -27,10 +26,6 @@ Example:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Ephemeris {
-    /// The FMU whose flight is fitted: a MomentumPlant, whose outputs place Sun, Earth and
-    /// spacecraft about orbit.center; otherwise the installed program's, or dist/MomentumPlant.fmu
-    #[arg(value_name = "FMU")]
-    pub source: Option<PathBuf>,
     #[command(flatten)]
     pub kernels: KernelOptions,
     /// First epoch, a date: '2011-04-06T00:00:00 UTC'
@@ -49,7 +44,7 @@ pub(crate) struct Ephemeris {
         hide_possible_values = true
     )]
     pub bodies: Vec<BodyKind>,
-    /// Greatest error of position, in m: the degree, and without --segment the length of the segments, follow from it
+    /// Greatest error of position, in m or with a unit: the degree, and without --segment the length of the segments, follow from it
     #[arg(long, value_name = "M", value_parser = tolerance, default_value = "100", conflicts_with = "degree")]
     pub tolerance: f64,
     /// Length of the segments, in s or with a unit: 4d; otherwise as --tolerance asks, 8d with --degree
@@ -74,9 +69,9 @@ pub(crate) struct Ephemeris {
     /// Show no progress and no report
     #[arg(long, short)]
     pub quiet: bool,
-    /// How long the FMU is waited for
+    /// The library that reads the file
     #[command(flatten)]
-    pub patience: Patience,
+    pub reader: Reader,
 }
 
 /// `--bodies`.
@@ -121,7 +116,7 @@ fn check_span(option: &str, written: &str, span_s: f64) -> Result<(), String> {
 impl Ephemeris {
     /// The FMU that is simulated.
     pub(crate) fn simulated(&self) -> PathBuf {
-        self.source.clone().unwrap_or_else(|| home::fmu(home::DEFAULT_MODEL))
+        self.reader.or_shipped()
     }
 
     /// The files it reads.
@@ -207,5 +202,5 @@ impl Ephemeris {
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
-    number(text, |tolerance_m| tolerance_m > 0.0, "a number of metres above 0")
+    positive(text, "m")
 }

@@ -1,6 +1,7 @@
 //! `heliotorque info`: what an FMU is, takes and gives; what a system joins.
 
 mod experiment;
+mod json;
 mod system;
 
 use std::path::{Path, PathBuf};
@@ -38,6 +39,9 @@ pub(crate) struct Info {
     /// 'spacecraft.centerOfMass[3]=-2.54cm'
     #[arg(long, value_name = "NAME=VALUE", requires = "coefficients")]
     pub set: Vec<String>,
+    /// Print one JSON object: the description with all variables, or those of --only
+    #[arg(long, conflicts_with = "coefficients")]
+    pub json: bool,
     /// How long --coefficients waits
     #[command(flatten)]
     pub patience: Patience,
@@ -52,6 +56,9 @@ pub(crate) fn run(arguments: &Info) -> Outcome {
         }
         let system = System::open(&arguments.fmu)?;
         let description = system.description();
+        if arguments.json {
+            return json(arguments, description, Some(&system));
+        }
         match chosen(description, arguments)? {
             Some(tables) => tables,
             None if arguments.variables => {
@@ -66,6 +73,9 @@ pub(crate) fn run(arguments: &Info) -> Outcome {
         if arguments.coefficients {
             warn_of_repeated("--set", &arguments.set);
             return outcome::printed(&packing::coefficients::text(&fmu, &arguments.set)?);
+        }
+        if arguments.json {
+            return json(arguments, description, None);
         }
         match chosen(description, arguments)? {
             Some(tables) => tables,
@@ -82,6 +92,16 @@ pub(crate) fn run(arguments: &Info) -> Outcome {
         }
     };
     outcome::printed(&text.join("\n\n"))
+}
+
+/// Prints the JSON object.
+fn json(arguments: &Info, description: &Description, system: Option<&System>) -> Outcome {
+    let positions = match &arguments.only[..] {
+        [] => (0..description.variables.len()).collect(),
+        only => selected(description, &values::all_names(only), fmi::select)?,
+    };
+    let object = json::object(&arguments.fmu.display().to_string(), description, &positions, system);
+    outcome::printed(&serde_json::to_string_pretty(&object)?)
 }
 
 /// The tables of what `--only` names, if it is given.

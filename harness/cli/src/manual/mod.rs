@@ -1,12 +1,12 @@
 //! `heliotorque man`: the manual's pages, one for the program and one for each command.
 
-use std::{path::PathBuf, process::ExitCode};
+use std::path::PathBuf;
 
 use clap::{Args, Command};
 use clap_mangen::Man;
 use files::{
     Destination,
-    outcome::{self, Outcome},
+    outcome::{self, Answer, Outcome, STATUSES},
 };
 
 /// `heliotorque man`.
@@ -15,7 +15,7 @@ pub(crate) struct Manual {
     /// The command whose page it is, plan-spin for one below another; otherwise the program's
     pub command: Option<String>,
     /// Write every page into this folder instead: heliotorque.1, heliotorque-run.1, ...
-    #[arg(long, value_name = "FOLDER", conflicts_with = "command")]
+    #[arg(long, short, value_name = "FOLDER", conflicts_with = "command")]
     pub output: Option<PathBuf>,
 }
 
@@ -32,7 +32,7 @@ pub(crate) fn run(arguments: &Manual, program: Command) -> Outcome {
             let path = folder.join(format!("{name}.1"));
             Destination::open(&path, "--output", &[])?.fill(|file| file.write_all(page))?;
         }
-        return Ok(ExitCode::SUCCESS);
+        return Ok(Answer::Yes);
     }
     let requested = match &arguments.command {
         Some(command) => format!("{name}-{command}"),
@@ -53,6 +53,10 @@ fn add(pages: &mut Vec<(String, Vec<u8>)>, command: Command, name: &str, usage: 
         command.disable_help_subcommand(true).display_name(name.to_owned()).bin_name(usage.to_owned());
     let mut page = Vec::new();
     Man::new(command.clone()).title(name).source(VERSION).render(&mut page)?;
+    page.extend(b".SH \"EXIT STATUS\"\n");
+    for (status, what) in STATUSES {
+        page.extend(format!(".TP\n\\fB{status}\\fR\n{what}\n").bytes());
+    }
     pages.push((name.to_owned(), page));
     for below in command.get_subcommands().filter(|below| !below.is_hide_set()) {
         let own = below.get_name();

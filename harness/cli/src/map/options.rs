@@ -6,23 +6,23 @@ use clap::{Args, ValueEnum};
 use inputs::values::{angle, number};
 use planner::map::options::{self, Steps};
 
-use crate::patience::Patience;
+use crate::patience::Reader;
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
 Torque about the centre of mass and force are in the body frame. Azimuth counts from -Y toward +X, elevation from the XY
 plane toward -Z. Panels held by Sun offset turn with the Sun, as in MomentumPlant; the others keep their angle.
 
-With --mission, the disturbance is what the recording gathers in body components: torque.total over time, otherwise
+With --recording, the disturbance is what the recording gathers in body components: torque.total over time, otherwise
 momentum.body with the dumps of dump.count taken out (run with momentum.convention=bodyIntegral). Downlinks take the share of
 time of guided.downlinkStart|End|Every, and may hold the Sun anywhere in the zone instead of on -Y. \"Holdable without a dump
 until day N\" means: up to day N some choice of these directions keeps X and Z within +-dump.threshold, from day N on none does.
 
 Example:
   heliotorque map my.toml                                    writes my-map.svg and prints the table
-  heliotorque map my.toml --distance 0.3 --panel-offset 70deg --csv torque.csv --lines zero.csv
+  heliotorque map my.toml --distance 0.3 --panel-offset 70deg --output torque.csv --lines zero.csv
   heliotorque run dist/MomentumPlant.fmu --stop 90d --record torque.total,sun.distance --output simulated.csv
-  heliotorque map fmu-src/resources/messenger.toml --mission simulated.csv";
+  heliotorque map fmu-src/resources/messenger.toml --recording simulated.csv";
 
 /// `heliotorque map`.
 #[derive(Clone, Debug, Args)]
@@ -30,10 +30,6 @@ Example:
 pub(crate) struct Map {
     /// The spacecraft, a TOML file as for `pack`, or an FMU that was packed with one
     pub spacecraft: PathBuf,
-    /// For a TOML file only: the FMU whose library reads it, as for `pack`; otherwise the installed program's, or
-    /// dist/MomentumPlant.fmu
-    #[arg(long, value_name = "FMU")]
-    pub template: Option<PathBuf>,
     /// Distance from the Sun, in AU; otherwise that of the file's sun.positionBody, without one the mean distance of the body
     /// that orbit.center names. Torque goes with the inverse square
     #[arg(long, value_name = "AU", value_parser = distance, allow_hyphen_values = true)]
@@ -62,26 +58,24 @@ pub(crate) struct Map {
     /// A simulated mission, recorded by `run`: torque.total, or momentum.body with dump.count; with sun.distance, what downlinks
     /// give follows the distance
     #[arg(long, value_name = "CSV")]
-    pub mission: Option<PathBuf>,
-    /// The SVG to write; otherwise the file's name with -map.svg, in this folder; - is the standard output
-    #[arg(long, short, value_name = "SVG", conflicts_with = "no_picture")]
-    pub output: Option<PathBuf>,
-    /// Write torque (N.m), force (N) and panel angles (deg) for every direction (deg) as CSV; - is the standard output
-    #[arg(long, value_name = "CSV")]
-    pub csv: Option<PathBuf>,
+    pub recording: Option<PathBuf>,
+    /// The file to write, by its ending: .csv, torque (N.m), force (N) and panel angles (deg) for every direction (deg); .svg, the
+    /// picture; repeatable, otherwise the file's name with -map.svg, in this folder; - is CSV on the standard output
+    #[arg(long, short, value_name = "FILE")]
+    pub output: Vec<PathBuf>,
     /// Write the lines of zero torque as CSV: region (all, zone), axis (x, y, z, or xz where X and Z vanish together), number,
     /// azimuth and elevation in deg; what vanishes does to 1e-12 of its greatest; - is the standard output
     #[arg(long, value_name = "CSV")]
     pub lines: Option<PathBuf>,
     /// Write no picture
-    #[arg(long)]
+    #[arg(long, conflicts_with = "output")]
     pub no_picture: bool,
     /// Print no table
     #[arg(long, short)]
     pub quiet: bool,
-    /// How long it waits
+    /// The library that reads the file
     #[command(flatten)]
-    pub patience: Patience,
+    pub reader: Reader,
 }
 
 impl Map {
@@ -89,7 +83,6 @@ impl Map {
     pub(crate) fn request(&self) -> planner::map::Map {
         let Self {
             spacecraft,
-            template,
             distance,
             panel_offset,
             zone,
@@ -97,17 +90,16 @@ impl Map {
             step,
             source,
             set,
-            mission,
+            recording,
             output,
-            csv,
             lines,
             no_picture,
             quiet,
-            ..
+            reader,
         } = self.clone();
         planner::map::Map {
             spacecraft,
-            template,
+            template: reader.template,
             distance,
             panel_offset,
             zone,
@@ -115,9 +107,8 @@ impl Map {
             step,
             source: source.kind(),
             set,
-            mission,
+            recording,
             output,
-            csv,
             lines,
             no_picture,
             quiet,

@@ -1,21 +1,30 @@
 //! `heliotorque new`: a commented file that works unchanged, to start from.
 
-use std::{
-    path::{Path, PathBuf},
-    process::ExitCode,
-};
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use files::{Destination, outcome::Outcome};
+use files::{
+    Destination,
+    outcome::{self, Answer, Outcome},
+};
+use inputs::ending::check_ending;
+
+use crate::schema::SchemaKind;
 
 /// `heliotorque new`.
 #[derive(Debug, Args)]
 pub(crate) struct New {
-    /// Of which kind
-    #[arg(value_enum)]
-    pub kind: NewKind,
-    /// The file to write; otherwise the kind's name with .toml, in this folder; - is the standard output
+    /// Kind of the file
+    #[arg(value_enum, required_unless_present = "schema")]
+    pub kind: Option<NewKind>,
+    /// The file to write, here or by --output; otherwise the kind's name with .toml, in this folder; - is the standard output
     pub file: Option<PathBuf>,
+    /// The file to write
+    #[arg(long, short, value_name = "FILE", conflicts_with = "file")]
+    pub output: Option<PathBuf>,
+    /// Write the JSON Schema of a kind of file, for editors that complete and check TOML, to the standard output or --output
+    #[arg(long, value_name = "KIND", value_enum, conflicts_with_all = ["kind", "file"])]
+    pub schema: Option<SchemaKind>,
     /// Write over files that are there
     #[arg(long)]
     pub force: bool,
@@ -36,13 +45,13 @@ pub(crate) enum NewKind {
     Asteroid,
     /// A telescope behind a sunshield near the Sun-Earth point L2; with telescope-mission.toml, a mission of it
     Telescope,
-    /// What is simulated, when, with which values, and what is recorded; for `run`, `check`, `pack --mission`
+    /// What is simulated, when, with which values, and what is recorded; for `run`, `check`, `pack`
     Mission,
     /// Commands, positions of panels and events over time, for `pack --timeline`
     Timeline,
-    /// How far arrays and attitude may go to hold a mission's momentum, for `plan momentum`; with plan-mission.toml, the mission
+    /// How far arrays and attitude may go to hold a mission's momentum, for `plan`; with plan-mission.toml, the mission
     Plan,
-    /// The place and date at which a leg begins, and the encounter that it leads to, for `plan leg`; with leg-mission.toml, the mission
+    /// The place and date at which a leg begins, and the encounter that it leads to, for `plan` of a leg; with leg-mission.toml, the mission
     Leg,
     /// What varies over many runs, and what is kept of each, for `sweep`; with mission.toml, the mission
     Campaign,
@@ -154,14 +163,28 @@ fn write_mission(content: &Content, path: &Path, force: bool) -> Result<(), Stri
 
 /// Writes the file, and the mission that it names.
 pub(crate) fn run(arguments: &New) -> Outcome {
-    let content = arguments.kind.content();
-    let path = arguments.file.as_deref().unwrap_or(Path::new(content.file));
-    let is_there = path != Path::new("-") && std::fs::symlink_metadata(path).is_ok();
-    if is_there && !arguments.force {
-        let path = path.display();
-        return Err(format!("{path}: found a file, allowed: a name that is free: see --force").into());
+    let given = arguments.output.as_deref().or(arguments.file.as_deref());
+    let open = |path: &Path| {
+        let is_there = path != Path::new("-") && std::fs::symlink_metadata(path).is_ok();
+        if is_there && !arguments.force {
+            let path = path.display();
+            return Err(format!("{path}: found a file, allowed: a name that is free: see --force"));
+        }
+        check_ending(path, if arguments.schema.is_some() { "json" } else { "toml" })?;
+        Destination::open(path, "FILE", &[])
+    };
+    if let Some(kind) = arguments.schema {
+        let path = given.unwrap_or(Path::new("-"));
+        return outcome::written(
+            open(path)?,
+            format!("{}\n", kind.text().trim_end()).as_bytes(),
+            &format!("{}: written", path.display()),
+        );
     }
-    let destination = Destination::open(path, "FILE", &[])?;
+    let Some(kind) = arguments.kind else { return Err("allowed: a kind of file: see --help".into()) };
+    let content = kind.content();
+    let path = given.unwrap_or(Path::new(content.file));
+    let destination = open(path)?;
     let is_stdout = destination.is_stdout();
     let own =
         path.file_name().filter(|_| !is_stdout).map_or(content.file.into(), |own| own.to_string_lossy());
@@ -169,13 +192,13 @@ pub(crate) fn run(arguments: &New) -> Outcome {
     destination.fill(|file| file.write_all(text.as_bytes()))?;
     if !is_stdout {
         write_mission(&content, path, arguments.force)?;
-        let next = match arguments.kind {
+        let next = match kind {
             NewKind::Mission => "run",
             _ => "check",
         };
         terminal::print(&format!("{0}: written; next: heliotorque {next} {0}", path.display()))?;
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(Answer::Yes)
 }
 
 #[cfg(test)]

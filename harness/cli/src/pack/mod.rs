@@ -11,30 +11,33 @@ use files::{
     Destination,
     outcome::{self, Outcome},
 };
-use inputs::{mission::Mission, variables};
+use inputs::{ending::check_ending, kind::FileKind, mission::Mission, variables};
 use packing::{
     assembly::{Assembled, Parts, Source, assemble, defaults_at_bounds, reference_flight, unused_map},
     carried::timeline::panels_without_effect,
     pointing,
 };
 
-use crate::patience::Patience;
+use crate::patience::Reader;
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
 Example:
   heliotorque check my.toml                                  what is wrong with it, by line
-  heliotorque pack --spacecraft my.toml --name MyCraft       writes MyCraft.fmu";
+  heliotorque pack my.toml --name MyCraft                    writes MyCraft.fmu
+  heliotorque pack mission.toml                              with its files, start values and times";
 
 /// `heliotorque pack`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Pack {
-    /// The spacecraft, a TOML file (see `heliotorque schema` and `heliotorque check`); otherwise the one compiled into
-    /// the library
-    #[arg(long, value_name = "TOML")]
+    /// The spacecraft, or a mission whose spacecraft, model, timeline, ephemeris, start values and times are taken where no option
+    /// gives others; a TOML file (see `heliotorque new` and `heliotorque check`). Otherwise the spacecraft compiled into the library
+    pub file: Option<PathBuf>,
+    /// The spacecraft, by an earlier option
+    #[arg(long, value_name = "TOML", hide = true)]
     pub spacecraft: Option<PathBuf>,
-    /// Commands, positions of panels and events over time, a TOML file (see `heliotorque schema timeline`), for models that take
+    /// Commands, positions of panels and events over time, a TOML file (see `heliotorque new timeline`), for models that take
     /// one: MomentumPlant, Guidance; the GUID stays
     #[arg(long, value_name = "TOML")]
     pub timeline: Option<PathBuf>,
@@ -42,8 +45,8 @@ pub(crate) struct Pack {
     /// read where ephemeris.source is chebyshev or coarse; the GUID stays
     #[arg(long, value_name = "TOML")]
     pub ephemeris: Option<PathBuf>,
-    /// Take spacecraft, model, timeline, ephemeris, start values and times of a mission, a TOML file; other options win
-    #[arg(long, value_name = "TOML")]
+    /// The mission, by an earlier option
+    #[arg(long, value_name = "TOML", hide = true)]
     pub mission: Option<PathBuf>,
     /// Add outputs of every plate: plate[k].temperature and plate[k].force[i], as with `per_plate_outputs = true` in the
     /// spacecraft's file; for models that have them: MomentumPlant, DisturbanceTorque
@@ -60,9 +63,6 @@ pub(crate) struct Pack {
     /// Name of the new FMU, a C identifier; otherwise the model's
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
-    /// Take libraries and licences from this FMU; otherwise the installed program's own, or dist/MomentumPlant.fmu
-    #[arg(long, value_name = "FMU")]
-    pub template: Option<PathBuf>,
     /// Take this shared library, just built, instead of a template's; repeatable, one per platform, the host's first
     #[arg(long, value_name = "FILE", conflicts_with = "template", requires = "model")]
     pub library: Vec<PathBuf>,
@@ -73,18 +73,39 @@ pub(crate) struct Pack {
     /// The FMU to write; otherwise its name with .fmu, in this folder; - is the standard output
     #[arg(long, short, value_name = "FMU")]
     pub output: Option<PathBuf>,
-    /// How long it waits
+    /// The library that reads the file
     #[command(flatten)]
-    pub patience: Patience,
+    pub reader: Reader,
+}
+
+impl Pack {
+    /// Spacecraft and mission, told apart by what stands in the file.
+    ///
+    /// # Errors
+    /// A file that cannot be read, and one beside an option for its kind.
+    fn files(&self) -> Result<(Option<&Path>, Option<&Path>), String> {
+        let (spacecraft, mission) = (self.spacecraft.as_deref(), self.mission.as_deref());
+        let Some(file) = self.file.as_deref() else { return Ok((spacecraft, mission)) };
+        let is_mission = FileKind::recognize(&files::read_text(file)?) == Some(FileKind::Mission);
+        match (is_mission, spacecraft, mission) {
+            (true, _, None) => Ok((spacecraft, Some(file))),
+            (false, None, _) => Ok((Some(file), mission)),
+            _ => {
+                let option = if is_mission { "--mission" } else { "--spacecraft" };
+                Err(format!("{}: found it beside {option}, allowed: one of them", file.display()))
+            }
+        }
+    }
 }
 
 /// Packs the FMU.
 pub(crate) fn run(arguments: &Pack) -> Outcome {
     variables::warn_of_repeated("--set", &arguments.set);
     variables::warn_of_repeated("--fix", &arguments.fix);
-    let mission = arguments.mission.as_deref().map(Mission::read).transpose()?;
+    let (spacecraft, mission_file) = arguments.files()?;
+    let mission = mission_file.map(Mission::read).transpose()?;
     let given = Parts {
-        spacecraft: arguments.spacecraft.as_deref(),
+        spacecraft,
         model: arguments.model.as_deref(),
         timeline: arguments.timeline.as_deref(),
         ephemeris: arguments.ephemeris.as_deref(),
@@ -99,7 +120,7 @@ pub(crate) fn run(arguments: &Pack) -> Outcome {
         Some(mission) => given.with_files_of(mission)?,
         None => given,
     };
-    let source = Source::open(arguments.template.as_deref(), &arguments.library)?;
+    let source = Source::open(arguments.reader.template(), &arguments.library)?;
     let Assembled { mut entries, identifier, described, description, setup } = assemble(&source, &parts)?;
     source.add_licenses(&mut entries)?;
     let drawing = scenes::svg(&setup);
@@ -116,12 +137,12 @@ pub(crate) fn run(arguments: &Pack) -> Outcome {
 
     let bytes = entries.to_zip()?;
     let path = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{identifier}.fmu")));
+    check_ending(&path, "fmu")?;
     if source.is_at(&path) {
         return Err(format!("{} is the template itself: see --name and --output", path.display()).into());
     }
     let files = [parts.spacecraft, parts.timeline, parts.ephemeris].into_iter().flatten();
-    let of_mission = arguments.mission.as_deref();
-    let inputs: Vec<&Path> = source.paths().into_iter().chain(files).chain(of_mission).collect();
+    let inputs: Vec<&Path> = source.paths().into_iter().chain(files).chain(mission_file).collect();
     let windows = pointing::warnings(&description, &[], pointing::windows_of(&setup).as_slice());
     let timeline = parts.timeline.map(files::read_text).transpose()?;
     let panels = timeline.and_then(|text| panels_without_effect(&text, &description, &[], ""));

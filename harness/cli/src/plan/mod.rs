@@ -1,74 +1,46 @@
 //! `heliotorque plan`: optimal plans.
 
-mod leg_options;
-mod momentum_options;
+mod options;
 
-use std::process::ExitCode;
-
-use clap::{Args, Subcommand};
-use files::outcome::Outcome;
-use inputs::home;
-use planner::plans::{
-    self, leg,
-    momentum::{self, PlanKind},
+use files::outcome::{self, Answer, Outcome};
+use inputs::{home, kind::FileKind};
+use planner::{
+    plans::{self, leg, momentum},
+    spin::PlanError,
 };
 
-use crate::patience::Patience;
-pub(crate) use leg_options::LegOptions;
-pub(crate) use momentum_options::MomentumOptions;
+use options::SpinPlan;
+pub(crate) use options::{Plan, SpinCommand};
 
-/// `heliotorque plan`.
-#[derive(Debug, Subcommand)]
-pub(crate) enum Plan {
-    /// The train of thruster pulses that turns a spinner with the least nutation
-    #[command(mut_args = |argument| if argument.is_positional() { argument } else { argument.allow_hyphen_values(true) })]
-    Spin(Box<SpinPlan>),
-    /// Arrays, places of the Sun and alternation that hold the momentum of a mission below its limit
-    Momentum(MomentumOptions),
-    /// The same with an aim in the B-plane of an encounter, reached by sunlight
-    #[command(after_help = FLYBY)]
-    Flyby(MomentumOptions),
-    /// The velocity at a place and date with which a mission comes to an encounter with a planet
-    Leg(LegOptions),
-}
-
-/// Shown with the help of `plan flyby`.
-const FLYBY: &str = "\
-Beside the files of `plan momentum`: desired.csv, the least velocity changes that would do the same; sensitivity.csv, what every window
-changes. Status 0: a plan was found and simulated within its limits. Status 1: none, or none was found: plan.json and plan.svg
-say how far it is.
-
-Example:
-  heliotorque plan flyby flyby.toml --output flyby
-  heliotorque run flyby/mission.toml";
-
-/// `heliotorque plan spin`.
-#[derive(Clone, Debug, Args)]
-pub(crate) struct SpinPlan {
-    /// What is planned
-    #[command(flatten)]
-    pub options: planner::spin::Options,
-    /// How long the FMU is waited for
-    #[command(flatten)]
-    pub patience: Patience,
-}
-
-/// Prints the plan, and writes its files where a folder is given; a plan that breaks a limit ends with status 1.
+/// Plans what the file or the subcommand names; a plan that breaks a limit ends with status 1.
 pub(crate) fn run(arguments: &Plan) -> Outcome {
-    let arguments = match arguments {
-        Plan::Spin(arguments) => arguments,
-        Plan::Momentum(options) => return momentum::run(&options.request(), PlanKind::Momentum),
-        Plan::Flyby(options) => return momentum::run(&options.request(), PlanKind::Flyby),
-        Plan::Leg(options) => return leg::run(&options.request()),
-    };
+    match (&arguments.spin, &arguments.by_file) {
+        (Some(SpinCommand::Spin(spin)), _) => run_spin(spin),
+        (None, Some(options)) => {
+            let text = ::files::read_text(&options.file)?;
+            if FileKind::recognize(&text) == Some(FileKind::Leg) {
+                options.check_leg()?;
+                return leg::run(&options.request(&arguments.reader));
+            }
+            momentum::run(&options.request(&arguments.reader))
+        }
+        (None, None) => Err("allowed: a plan file, a leg file or spin".into()),
+    }
+}
+
+/// Prints the plan of a spinner's turn, and writes its files where a folder is given.
+fn run_spin(arguments: &SpinPlan) -> Outcome {
     let mut options = arguments.options.clone();
     if let Some(path) = &options.spacecraft {
         planner::plans::check_spinner(path)?;
     }
-    if options.spacecraft.is_none() && options.fmu.is_none() && options.campaign.is_none() {
-        options.fmu = home::installed().map(|_| home::fmu("SpinPlant")).filter(|fmu| fmu.is_file());
+    if options.spacecraft.is_none() && options.template.is_none() && options.campaign_s.is_none() {
+        options.template = home::installed().map(|_| home::fmu("SpinPlant")).filter(|fmu| fmu.is_file());
     }
-    let answer = planner::spin::plan(&options)?;
+    let answer = match planner::spin::plan(&options) {
+        Err(PlanError::Infeasible(why)) => return outcome::no(&why),
+        answer => answer?,
+    };
     terminal::print(answer.text.trim_end())?;
     if let (Some(folder), Some(burn)) = (&options.output, &answer.burn) {
         for path in plans::files::write(folder, options.spacecraft.as_deref(), burn)? {
@@ -76,8 +48,8 @@ pub(crate) fn run(arguments: &Plan) -> Outcome {
         }
     }
     if answer.broken.is_empty() {
-        return Ok(ExitCode::SUCCESS);
+        return Ok(Answer::Yes);
     }
     terminal::note(&format!("limits broken: {}", answer.broken.join(", ")));
-    Ok(ExitCode::FAILURE)
+    Ok(Answer::No)
 }

@@ -9,7 +9,7 @@ use files::{
     Destination,
     outcome::{self, Outcome},
 };
-use inputs::{svg_path::check_svg_path, values};
+use inputs::{ending::check_ending, values};
 pub(crate) use options::Plot;
 use tables::table::{Sidecar, TIME, Table};
 
@@ -21,7 +21,7 @@ pub(crate) fn run(arguments: &Plot) -> Outcome {
     let first = arguments.files.first().map_or(Path::new(DEFAULT_NAME), PathBuf::as_path);
     let stem = first.file_stem().map_or(DEFAULT_NAME.into(), |stem| stem.to_string_lossy());
     let path = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{stem}.svg")));
-    check_svg_path(&path, "--output")?;
+    check_ending(&path, "svg")?;
     let inputs: Vec<&Path> = arguments.files.iter().map(PathBuf::as_path).collect();
     let destination = Destination::open(&path, "--output", &inputs)?;
     let read = |path: &PathBuf| -> Result<(Table, Sidecar), String> {

@@ -7,7 +7,7 @@ use inputs::values;
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
-A table over time is drawn as `run --plot` draws it; several are overlaid, a panel for each variable, a colour for each file. A table of
+A table over time is drawn as `run --output FILE.svg` draws it; several are overlaid, a panel for each variable, a colour for each file. A table of
 percentiles over time, as a campaign's, is drawn as medians with bands. Tables of a campaign's runs need one of the options
 from --histogram to --tornado. Units, items and dates come from NAME.csv.toml beside the table, where there is one.
 

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use inputs::values;
+use inputs::values::{number, positive};
 
-use crate::patience::Patience;
+use crate::patience::Reader;
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
@@ -29,11 +29,11 @@ pub(crate) struct Refit {
     /// The history of momentum
     #[arg(long, value_name = "CSV")]
     pub telemetry: PathBuf,
-    /// Standard deviation of each momentum component of each row, in N.m.s
-    #[arg(long, value_name = "N.m.s", value_parser = deviation, allow_hyphen_values = true, default_value = "0.01")]
+    /// Standard deviation of each momentum component of each row, in N.m.s or with a unit
+    #[arg(long, value_name = "N.m.s", value_parser = |text: &str| positive(text, "N.m.s"), allow_hyphen_values = true, default_value = "0.01")]
     pub noise: f64,
-    /// Standard deviation of each component of the mission's centre of mass, in m
-    #[arg(long, value_name = "M", value_parser = deviation, allow_hyphen_values = true, default_value = "0.05")]
+    /// Standard deviation of each component of the mission's centre of mass, in m or with a unit: 5cm
+    #[arg(long, value_name = "M", value_parser = |text: &str| positive(text, "m"), allow_hyphen_values = true, default_value = "0.05")]
     pub prior_center: f64,
     /// Standard deviation of the mission's solar.scale
     #[arg(long, value_name = "S", value_parser = deviation, allow_hyphen_values = true, default_value = "0.05")]
@@ -41,22 +41,18 @@ pub(crate) struct Refit {
     /// The TOML file to write, a table [set] that missions take; JSON and picture stand beside it under the same name
     #[arg(long, short, value_name = "FILE.toml")]
     pub output: PathBuf,
-    /// The FMU whose library reads the mission's files, as for `run`; otherwise the installed program's, or
-    /// dist/MomentumPlant.fmu
-    #[arg(long, value_name = "FMU")]
-    pub template: Option<PathBuf>,
     /// Print no table
     #[arg(long, short)]
     pub quiet: bool,
-    /// How long it waits
+    /// The library that reads the file
     #[command(flatten)]
-    pub patience: Patience,
+    pub reader: Reader,
 }
 
 impl Refit {
     /// The request without the command line.
     pub(crate) fn request(&self) -> planner::plans::refit::Refit {
-        let Self { mission, telemetry, noise, prior_center, prior_scale, output, template, quiet, .. } =
+        let Self { mission, telemetry, noise, prior_center, prior_scale, output, quiet, reader } =
             self.clone();
         planner::plans::refit::Refit {
             mission,
@@ -65,7 +61,7 @@ impl Refit {
             prior_center,
             prior_scale,
             output,
-            template,
+            template: reader.template,
             quiet,
         }
     }
@@ -73,7 +69,7 @@ impl Refit {
 
 /// Reads a standard deviation, which is above 0.
 fn deviation(text: &str) -> Result<f64, String> {
-    values::number(text, |value| value > 0.0, "a number above 0")
+    number(text, |value| value > 0.0, "a number above 0")
 }
 
 #[cfg(test)]

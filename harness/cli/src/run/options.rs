@@ -3,13 +3,13 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use inputs::values::{Instant, duration, instant, span};
+use inputs::values::{Instant, duration, instant, number, span};
 use systems::{FirstExchange, Master};
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
 Example:
-  heliotorque run dist/MomentumPlant.fmu --stop 10d --record 'momentum.body*' --plot momentum.svg
+  heliotorque run dist/MomentumPlant.fmu --stop 10d --record 'momentum.body*' --output momentum.csv --output momentum.svg
   heliotorque run dist/MessengerLoop.ssp --stop 1d --record plant.attitude.q --output loop.csv
   heliotorque new mission mission.toml && heliotorque run mission.toml";
 
@@ -58,13 +58,11 @@ pub(crate) struct Run {
     /// Record the step nearest to each multiple of this time, in s or with a unit, and the last one; otherwise every step
     #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
     pub every: Option<f64>,
-    /// Write what is recorded as CSV; - is the standard output. Until the run is complete the file is <CSV>.part; it
-    /// stays if the FMU fails, crashes or hangs. Beside it stands <CSV>.toml: units, epoch, FMU, GUID, values, versions
-    #[arg(long, value_name = "CSV")]
-    pub output: Option<PathBuf>,
-    /// Draw what was recorded as SVG; - is the standard output
-    #[arg(long, value_name = "SVG")]
-    pub plot: Option<PathBuf>,
+    /// Write what is recorded, by the file's ending: .csv, the table; .svg, a picture; repeatable; - is CSV on the standard output.
+    /// Until the run is complete the table is <CSV>.part; it stays if the FMU fails, crashes or hangs. Beside it stands
+    /// <CSV>.toml: units, epoch, FMU, GUID, values, versions
+    #[arg(long, short, value_name = "FILE")]
+    pub output: Vec<PathBuf>,
     /// For a mission with a spacecraft only: the FMU whose library shall simulate it, as for `pack`; otherwise the installed
     /// program's own, or dist/MomentumPlant.fmu
     #[arg(long, value_name = "FMU")]
@@ -72,6 +70,12 @@ pub(crate) struct Run {
     /// Longest time an FMI call may take, in s or with a unit; otherwise without bound
     #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
     pub timeout: Option<f64>,
+    /// Tolerance that the FMU is given for its solver; otherwise that of its default experiment
+    #[arg(long, value_name = "NUMBER", value_parser = tolerance, allow_hyphen_values = true)]
+    pub tolerance: Option<f64>,
+    /// Write every FMI call with its times and its status to this file, a line each, also the one that never returns
+    #[arg(long, value_name = "FILE")]
+    pub log_calls: Option<PathBuf>,
     /// Show the FMU's log
     #[arg(long)]
     pub log: bool,
@@ -96,9 +100,10 @@ impl Run {
             record,
             every,
             output,
-            plot,
             template,
             timeout,
+            tolerance,
+            log_calls,
             log,
             quiet,
         } = self.clone();
@@ -115,13 +120,18 @@ impl Run {
             record,
             every,
             output,
-            plot,
             template,
             timeout,
+            tolerance,
+            log_calls,
             log,
             quiet,
         }
     }
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    number(text, |tolerance| tolerance > 0.0, "a number above 0: 1e-8")
 }
 
 /// `--master`.

@@ -6,7 +6,7 @@ use clap::Args;
 use inputs::values::{duration, number, span};
 use planner::size::SlewDemand;
 
-use crate::patience::Patience;
+use crate::patience::Reader;
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
@@ -51,18 +51,18 @@ pub(crate) struct Size {
     /// Time for which thresholds beyond the first three are simulated; those that it does not come to are left out, and it says so
     #[arg(long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true, default_value = "45s")]
     pub budget: f64,
-    /// The FMU whose library reads the file, as for `pack`; otherwise the installed program's, or dist/MomentumPlant.fmu
-    #[arg(long, value_name = "FMU")]
-    pub template: Option<PathBuf>,
     /// Set a parameter of MomentumPlant; repeatable, written as for `run`
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
+    /// Print one JSON object instead of the tables
+    #[arg(long)]
+    pub json: bool,
     /// Print no table
     #[arg(long, short)]
     pub quiet: bool,
-    /// How long it waits
+    /// The library that reads the file
     #[command(flatten)]
-    pub patience: Patience,
+    pub reader: Reader,
 }
 
 impl Size {
@@ -78,10 +78,10 @@ impl Size {
             end,
             duration,
             budget,
-            template,
             set,
+            json,
             quiet,
-            ..
+            reader,
         } = self.clone();
         planner::size::Size {
             file,
@@ -93,8 +93,9 @@ impl Size {
             end,
             duration,
             budget,
-            template,
+            template: reader.template,
             set,
+            json,
             quiet,
         }
     }

@@ -1,9 +1,9 @@
 //! `heliotorque study`: the papers' tables and figures.
 
-use std::{io::IsTerminal, path::PathBuf, process::ExitCode};
+use std::{io::IsTerminal, path::PathBuf};
 
 use clap::Args;
-use files::outcome::{self, Outcome};
+use files::outcome::{self, Answer, Outcome};
 use inputs::{
     home,
     kind::FileKind,
@@ -86,7 +86,7 @@ pub(crate) fn run(arguments: &Study) -> Outcome {
     for file in &report.files {
         terminal::note(&file.display().to_string());
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(Answer::Yes)
 }
 
 /// A turn with its unit, in rad; none and more than half a turn are refused.

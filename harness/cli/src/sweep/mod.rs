@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use files::outcome::Outcome;
+use inputs::ending::check_ending;
 pub(crate) use options::Sweep;
 
 /// `heliotorque sweep-in-child`.
@@ -33,6 +34,7 @@ pub(crate) struct SweepInChild {
 
 /// Simulates a campaign.
 pub(crate) fn run(arguments: &Sweep) -> Outcome {
+    check_ending(&arguments.output, "csv")?;
     campaign::sweep::run(&arguments.request())
 }
 

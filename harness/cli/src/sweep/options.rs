@@ -26,7 +26,7 @@ pub(crate) struct Sweep {
     pub workers: Option<u16>,
     /// The CSV file of runs, with a row a run; - is the standard output. Until it is complete it is <CSV>.part. Beside it stands
     /// <CSV>.toml: units, seed, versions, digests
-    #[arg(long, value_name = "CSV", default_value = OUTPUT)]
+    #[arg(long, short, value_name = "CSV", default_value = OUTPUT)]
     pub output: PathBuf,
     /// Go on where an earlier sweep of the same campaign was interrupted: with what <CSV>.part holds
     #[arg(long)]

@@ -4,13 +4,16 @@ use std::{
     collections::BTreeMap,
     io::IsTerminal,
     path::{Path, PathBuf},
-    process::ExitCode,
 };
 
 use clap::Args;
-use files::{Destination, Entries, outcome::Outcome};
+use files::{
+    Destination, Entries,
+    outcome::{Answer, Outcome},
+};
 use fmi::Fmu;
 use inputs::{
+    ending::check_ending,
     home, kind,
     values::{all_names, duration, span},
     variables,
@@ -71,6 +74,7 @@ pub(crate) fn run(arguments: &Wire) -> Outcome {
     if path == Path::new("-") && std::io::stdout().is_terminal() {
         return Err("an SSP is a ZIP archive, which is not written to a terminal: see --output".into());
     }
+    check_ending(&path, "ssp")?;
     let named: Vec<(String, PathBuf)> = arguments.fmus.iter().map(|text| named(text)).collect();
     let mut components = Vec::with_capacity(named.len());
     for (name, file) in &named {
@@ -113,7 +117,7 @@ pub(crate) fn run(arguments: &Wire) -> Outcome {
         terminal::note(&report(&wired));
         components.iter().flat_map(|(_, fmu)| misfits(fmu)).for_each(|line| terminal::note(&line));
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(Answer::Yes)
 }
 
 /// `name=path`, or a path whose file gives the name.

@@ -88,7 +88,7 @@ fn rows_that_a_kill_left_are_not_thrown_away() {
     run(&arguments(&file, &whole, &[]), 0);
     assert!(killed(&arguments(&file, &output, &[]), &part, 20_000));
     let left = fs::read(&part).unwrap();
-    says(&run(&arguments(&file, &output, &[]), 1), &["runs.csv.part: found ", "--resume", "--fresh"]);
+    says(&run(&arguments(&file, &output, &[]), 2), &["runs.csv.part: found ", "--resume", "--fresh"]);
     assert!(fs::read(&part).unwrap() == left);
     // Rows count as far as the numbers of the percentiles are there: cut, with a hole, not at all.
     let numbers = at("runs-percentiles.csv.part");
@@ -110,7 +110,7 @@ fn rows_that_a_kill_left_are_not_thrown_away() {
     assert!(results(&output) == results(&whole));
     // Without its percentiles a table is not complete.
     fs::remove_file(at("runs-percentiles.csv")).unwrap();
-    says(&run(&arguments(&file, &output, &["--resume"]), 1), &["runs-percentiles.csv: found no percentiles"]);
+    says(&run(&arguments(&file, &output, &["--resume"]), 2), &["runs-percentiles.csv: found no percentiles"]);
 }
 
 #[test]
@@ -118,13 +118,13 @@ fn a_range_of_runs_belongs_to_what_is_resumed() {
     let Some((scratch, file)) = campaign(40) else { return };
     let output = scratch.path().join("runs.csv");
     run(&arguments(&file, &output, &["--runs", "0..10"]), 0);
-    let refused = run(&arguments(&file, &output, &["--resume"]), 1);
+    let refused = run(&arguments(&file, &output, &["--resume"]), 2);
     says(&refused, &["runs.csv.toml: found the runs 0..10, allowed: those of this sweep, 0..40"]);
     let done = run(&arguments(&file, &output, &["--runs", "0..10", "--resume"]), 0);
     says(&done, &["complete already: 10 ok"]);
     fs::rename(&output, scratch.path().join("runs.csv.part")).unwrap();
     fs::rename(scratch.path().join("runs.csv.toml"), scratch.path().join("runs.csv.part.toml")).unwrap();
-    let refused = run(&arguments(&file, &output, &["--runs", "0..5", "--resume"]), 1);
+    let refused = run(&arguments(&file, &output, &["--runs", "0..5", "--resume"]), 2);
     says(&refused, &["runs.csv.part.toml: found the runs 0..10, allowed: those of this sweep, 0..5"]);
 }
 
@@ -138,32 +138,32 @@ fn files_of_a_campaign_follow_the_rules_of_all_others() {
     let with = |histories: &str| fs::write(&file, format!("{text}histories = {histories:?}\n")).unwrap();
     with(shown(&away.path().join("x")));
     says(
-        &run(&arguments(&file, &output, &[]), 1),
+        &run(&arguments(&file, &output, &[]), 2),
         &["keep.histories: found ", "allowed: a folder in the campaign's"],
     );
     assert!(!away.path().join("x").exists());
     fs::create_dir(at("histories")).unwrap();
     fs::write(at("histories/run-3.csv"), "precious").unwrap();
     with("histories");
-    says(&run(&arguments(&file, &output, &[]), 1), &["run-3.csv: found a file that no run wrote"]);
+    says(&run(&arguments(&file, &output, &[]), 2), &["run-3.csv: found a file that no run wrote"]);
     fs::remove_dir_all(at("histories")).unwrap();
     // Outputs are held against inputs before the first run.
     fs::write(at("runs-percentiles.csv"), "x[1]\n1\n2\n").unwrap();
     let by_table = "fmu = \"Functions.fmu\"\nsampling = \"file\"\nfile = \"runs-percentiles.csv\"\n[keep]\npercentiles = [\"ramp\"]\n";
     fs::write(&file, by_table).unwrap();
-    says(&run(&arguments(&file, &output, &[]), 1), &["runs-percentiles.csv: it is an input too"]);
+    says(&run(&arguments(&file, &output, &[]), 2), &["runs-percentiles.csv: it is an input too"]);
     assert!(!output.exists() && !at("runs.csv.part").exists());
     fs::write(at("values.csv"), "x[1],x[1]\n1,2\n").unwrap();
     fs::write(&file, by_table.replace("runs-percentiles", "values")).unwrap();
-    says(&run(&arguments(&file, &output, &[]), 1), &["values.csv: found the column \"x[1]\" twice"]);
+    says(&run(&arguments(&file, &output, &[]), 2), &["values.csv: found the column \"x[1]\" twice"]);
     fs::write(&file, text.replace("runs = 5", "runs = 1000000000\nsampling = \"latinHypercube\"")).unwrap();
-    says(&run(&arguments(&file, &output, &[]), 1), &["found 1000000000 runs, allowed: 1 to 16777216"]);
+    says(&run(&arguments(&file, &output, &[]), 2), &["found 1000000000 runs, allowed: 1 to 16777216"]);
     fs::write(&file, &text).unwrap();
     #[cfg(unix)]
     {
         fs::write(at("precious"), "precious").unwrap();
         std::os::unix::fs::symlink(at("precious"), at("runs-percentiles.csv.part")).unwrap();
-        says(&run(&arguments(&file, &output, &[]), 1), &["runs-percentiles.csv.part: found "]);
+        says(&run(&arguments(&file, &output, &[]), 2), &["runs-percentiles.csv.part: found "]);
         assert_eq!(fs::read(at("precious")).unwrap(), b"precious");
     }
 }

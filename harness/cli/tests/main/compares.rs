@@ -90,17 +90,17 @@ fn the_picture_shows_what_differs() {
     let scratch = files(FIRST, SECOND);
     let origin = "start_s = 0\n[[fmus]]\nname = \"Plant\"\n[columns]\n\"h[1]\" = { unit = \"N.m.s\", display = { unit = \"mN.m.s\", factor = 1000.0 } }\n";
     fs::write(scratch.path().join("a.csv.toml"), origin).unwrap();
-    compared(scratch.path(), &["--plot", "d.svg"], 1);
+    compared(scratch.path(), &["--output", "d.svg"], 1);
     let svg = fs::read_to_string(scratch.path().join("d.svg")).unwrap();
     says(&svg, &["b.csv less a.csv", "h [mN.m.s]", ">h[1]<", "time [s]", ">500<"]);
     assert!(!svg.contains("h[2]"), "{svg}");
-    let (picture, printed) = compared(scratch.path(), &["--plot", "-"], 1);
+    let (picture, printed) = compared(scratch.path(), &["--output", "-"], 1);
     assert_eq!(picture, svg);
     says(&printed, &["1 of 3 beyond"]);
-    let (_, printed) = compared(scratch.path(), &["--plot", "d.png"], 1);
-    says(&printed, &["d.png", "allowed: one that ends in .svg", "--plot"]);
-    let (_, printed) = compared(scratch.path(), &["--plot", "b.csv.svg/d.svg"], 1);
-    says(&printed, &["there is no folder", "--plot"]);
+    let (_, printed) = compared(scratch.path(), &["--output", "d.png"], 2);
+    says(&printed, &["d.png: found another ending, allowed: .svg, or - for SVG", "--output"]);
+    let (_, printed) = compared(scratch.path(), &["--output", "b.csv.svg/d.svg"], 2);
+    says(&printed, &["there is no folder", "--output"]);
 }
 
 #[test]

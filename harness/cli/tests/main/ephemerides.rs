@@ -34,13 +34,15 @@ fn a_file_is_reported_and_a_torn_one_refused_by_line() {
         let text = run(&["check", shown(&path)], 1);
         assert!(text.contains(printed), "{new}: {text}");
     }
-    assert!(run(&["schema", "ephemeris"], 0).contains("heliotorque ephemeris"));
+    assert!(run(&["new", "--schema", "ephemeris"], 0).contains("heliotorque ephemeris"));
 }
 
 #[test]
 fn dates_and_sources_that_cannot_be_are_refused_by_name() {
     let Some((_scratch, fmu)) = packed("Empty") else { return };
-    let ask = |start: &str, stop: &str| run(&["ephemeris", shown(&fmu), "--start", start, "--stop", stop], 1);
+    let ask = |start: &str, stop: &str| {
+        run(&["ephemeris", "--template", shown(&fmu), "--start", start, "--stop", stop], 2)
+    };
     assert!(
         ask("2011-04-06", STOP)
             .contains("--start: found \"2011-04-06\", which does not end in UTC, Z, TDB, TT or TAI")
@@ -85,7 +87,17 @@ fn a_flight_is_fitted_to_the_tolerance_and_simulated_by_another_fmu() {
     let path = |name: &str| scratch.path().join(name);
     let (fitted, file) = (path("Fitted.fmu"), path("flown.toml"));
     let pack = ["pack", "--template", shown(&plant), "--model", "MomentumPlant", "--output"];
-    let make = ["ephemeris", shown(&plant), "--start", START, "--stop", STOP, "--output", shown(&file)];
+    let make = [
+        "ephemeris",
+        "--template",
+        shown(&plant),
+        "--start",
+        START,
+        "--stop",
+        STOP,
+        "--output",
+        shown(&file),
+    ];
     let text = run(
         &[&make[..], &["--tolerance", "500", "--coarse", "--bodies", "sun,earth,spacecraft"]].concat(),
         0,
@@ -97,17 +109,28 @@ fn a_flight_is_fitted_to_the_tolerance_and_simulated_by_another_fmu() {
     // The file says the same.
     let again = run(&["check", shown(&file)], 0);
     assert_eq!(text.lines().skip(1).collect::<Vec<_>>(), again.lines().skip(1).collect::<Vec<_>>());
-    let impossible = run(&[&make[..], &["--tolerance", "1e-9", "--segment", "5d"]].concat(), 1);
+    let impossible = run(&[&make[..], &["--tolerance", "1e-9", "--segment", "5d"]].concat(), 2);
     assert!(impossible.contains("--tolerance: no fit of sun up to degree 16 keeps"), "{impossible}");
     // Any planet, the Moon from kernels alone.
-    let make = ["ephemeris", shown(&plant), "--start", START, "--stop", STOP, "--output", "-", "--bodies"];
+    let make = [
+        "ephemeris",
+        "--template",
+        shown(&plant),
+        "--start",
+        START,
+        "--stop",
+        STOP,
+        "--output",
+        "-",
+        "--bodies",
+    ];
     let planets = run(&[&make[..], &["venus,jupiter", "--tolerance", "500"]].concat(), 0);
     placed_by_theory(&planets, &[Body::Venus, Body::Jupiter], 600.0);
-    let moon = run(&[&make[..], &["moon"]].concat(), 1);
+    let moon = run(&[&make[..], &["moon"]].concat(), 2);
     assert!(moon.contains("--bodies moon: allowed with --kernel"), "{moon}");
     // Another FMU uses it within its span alone.
     let set = ["--set", "ephemeris.source=chebyshev", "--ephemeris", shown(&file)];
-    let refusal = run(&[&pack[..], &[shown(&fitted)], &set].concat(), 1);
+    let refusal = run(&[&pack[..], &[shown(&fitted)], &set].concat(), 2);
     says(&refusal, &["the FMU is not written", "start.epoch: found"]);
     let epoch = format!("start.epoch={START}");
     run(&[&pack[..], &[shown(&fitted)], &set, &["--set", &epoch]].concat(), 0);
@@ -120,13 +143,25 @@ fn a_flight_is_fitted_to_the_tolerance_and_simulated_by_another_fmu() {
         run(&[&run_it[..], &output].concat(), status)
     };
     simulate("2011-04-07 UTC", 0);
-    let text = simulate("2011-05-07 UTC", 1);
+    let text = simulate("2011-05-07 UTC", 2);
     assert!(text.contains("start.epoch: found") && text.contains("ephemeris.toml places sun"), "{text}");
     // It is no source for a span it does not cover, either.
     let beyond = ["--start", "2011-05-06 UTC", "--stop", "2011-05-07 UTC", "--output", "-"];
-    let text = run(&[&["ephemeris", shown(&fitted)], &beyond[..]].concat(), 1);
+    let text = run(&[&["ephemeris", "--template", shown(&fitted)], &beyond[..]].concat(), 2);
     assert!(text.contains("Fitted.fmu") && text.contains("ephemeris.toml places sun"), "{text}");
-    let text =
-        run(&["ephemeris", shown(&fitted), "--start", START, "--stop", "2011-05-07 UTC", "--output", "-"], 1);
+    let text = run(
+        &[
+            "ephemeris",
+            "--template",
+            shown(&fitted),
+            "--start",
+            START,
+            "--stop",
+            "2011-05-07 UTC",
+            "--output",
+            "-",
+        ],
+        2,
+    );
     assert!(text.contains("Fitted.fmu") && text.contains("the epoch at the end of the step"), "{text}");
 }

@@ -35,7 +35,7 @@ fn no_file_is_written_in_place() {
         fs::write(path, "old").unwrap();
         fs::hard_link(path, at(&format!("held-{}", path.extension().unwrap().display()))).unwrap();
     }
-    run(&["run", shown(&fmu), "--output", shown(&table), "--plot", shown(&picture)], 0);
+    run(&["run", shown(&fmu), "--output", shown(&table), "--output", shown(&picture)], 0);
     run(&["pack", "--library", shown(&library), "--model", "AllTypes", "--output", shown(&archive)], 0);
     for extension in ["csv", "svg", "fmu"] {
         assert_eq!(fs::read_to_string(at(&format!("held-{extension}"))).unwrap(), "old");
@@ -51,7 +51,7 @@ fn a_killed_program_leaves_the_old_file_or_the_new_one() {
     let library = probe_library().unwrap();
     let at = |name: &str| scratch.path().join(name);
     let (picture, archive) = (at("a.svg"), at("a.fmu"));
-    let plot = ["run", shown(&fmu), "--quiet", "--plot", shown(&picture)];
+    let plot = ["run", shown(&fmu), "--quiet", "--output", shown(&picture)];
     let pack = ["pack", "--library", shown(&library), "--model", "AllTypes", "--output", shown(&archive)];
     for (arguments, target) in [(&plot[..], &picture), (&pack[..], &archive)] {
         let began = std::time::Instant::now();
@@ -83,26 +83,28 @@ fn an_input_is_never_written_over() {
     fs::hard_link(&input, at("hard.csv")).unwrap();
     symlink("hard.csv", at("soft.csv")).unwrap();
     fs::hard_link(&fmu, at("hard.svg")).unwrap();
+    fs::hard_link(&fmu, at("hard.fmu")).unwrap();
     let simulate = ["run", shown(&fmu), "--input", shown(&input)];
     for (option, path) in [
         ("--output", &input),
         ("--output", &at("hard.csv")),
         ("--output", &at("soft.csv")),
-        ("--output", &fmu),
-        ("--plot", &at("hard.svg")),
+        ("--output", &at("hard.svg")),
     ] {
-        let printed = run(&[&simulate[..], &[option, shown(path)]].concat(), 1);
+        let printed = run(&[&simulate[..], &[option, shown(path)]].concat(), 2);
         says(&printed, &["it is an input too", &format!("see {option}")]);
     }
     // The recording in progress would be the input.
     fs::rename(&input, at("x.csv.part")).unwrap();
     let part = at("x.csv.part");
-    let printed = run(&["run", shown(&fmu), "--input", shown(&part), "--output", shown(&at("x.csv"))], 1);
+    let printed = run(&["run", shown(&fmu), "--input", shown(&part), "--output", shown(&at("x.csv"))], 2);
     assert!(printed.contains("x.csv.part: it is an input too"), "{printed}");
     // One file for two outputs, by two names.
-    let same = scratch.path().join(".").join("y.svg");
-    let printed = run(&["run", shown(&fmu), "--output", shown(&at("y.svg")), "--plot", shown(&same)], 1);
-    assert!(printed.contains("see --output and --plot"), "{printed}");
+    fs::write(at("y.csv"), "").unwrap();
+    fs::hard_link(at("y.csv"), at("y.svg")).unwrap();
+    let (one, other) = (at("y.csv"), at("y.svg"));
+    let both = run(&["run", shown(&fmu), "--output", shown(&one), "--output", shown(&other)], 2);
+    says(&both, &["one file cannot take table and picture"]);
 
     let library = probe_library().unwrap();
     let copy = at("library.so");
@@ -112,10 +114,10 @@ fn an_input_is_never_written_over() {
     fs::write(&toml, "").unwrap();
     for path in [&copy, &at("hard.so"), &toml] {
         let pack = ["pack", "--library", shown(&copy), "--model", "AllTypes", "--spacecraft", shown(&toml)];
-        let printed = run(&[&pack[..], &["--output", shown(path)]].concat(), 1);
+        let printed = run(&[&pack[..], &["--output", shown(path)]].concat(), 2);
         assert!(printed.contains("it is an input too") || printed.contains("my.toml"), "{printed}");
     }
-    let printed = run(&["pack", "--template", shown(&fmu), "--output", shown(&at("hard.svg"))], 1);
+    let printed = run(&["pack", "--template", shown(&fmu), "--output", shown(&at("hard.fmu"))], 2);
     assert!(printed.contains("it is an input too"), "{printed}");
     assert_eq!((fs::read(&fmu).unwrap(), fs::read(&part).unwrap()), before);
     assert_eq!(fs::read(&copy).unwrap(), fs::read(&library).unwrap());
@@ -147,16 +149,21 @@ fn what_is_no_file_is_refused_by_name() {
             "pipe.csv",
             "found a FIFO, allowed: a regular file or -",
         ),
-        ([&simulate[..], &["--output", "/dev/null"]].concat(), "/dev/null", "found a character device"),
-        ([&simulate[..], &["--plot", shown(&svg)]].concat(), "pipe.svg", "found a FIFO"),
-        ([&simulate[..], &["--plot", shown(&folder)]].concat(), "folder.svg", "found a directory"),
+        (
+            [&simulate[..], &["--output", "/dev/null"]].concat(),
+            "/dev/null",
+            "allowed: .csv, .svg, or - for CSV",
+        ),
+        ([&simulate[..], &["--output", shown(&svg)]].concat(), "pipe.svg", "found a FIFO"),
+        ([&simulate[..], &["--output", shown(&folder)]].concat(), "folder.svg", "found a directory"),
         ([&from_library[..], &["--output", shown(&archive)]].concat(), "pipe.fmu", "found a FIFO"),
         ([&from_library[..], &["--spacecraft", shown(&toml)]].concat(), "pipe.toml", "found a FIFO"),
         (vec!["pack", "--library", shown(&archive), "--model", "M"], "pipe.fmu", "found a FIFO"),
         (vec!["pack", "--template", shown(&archive)], "pipe.fmu", "found a FIFO"),
     ];
     for (arguments, name, expected) in cases {
-        let printed = run(&arguments, 1);
+        // What is wrong with an FMU is the answer of `check`.
+        let printed = run(&arguments, if arguments[0] == "check" { 1 } else { 2 });
         assert!(printed.contains(name) && printed.contains(expected), "{arguments:?}: {printed}");
     }
 }
@@ -169,11 +176,7 @@ fn a_dash_is_the_standard_output() {
     run(&[&simulate[..], &[shown(&table)]].concat(), 0);
     let output = heliotorque(&[&simulate[..], &["-"]].concat()).output().unwrap();
     assert!(output.status.success() && output.stdout == fs::read(&table).unwrap(), "{}", text(&output));
-    let (picture, arguments) = (scratch.path().join("a.svg"), &simulate[..4]);
-    run(&[arguments, &["--plot", shown(&picture)]].concat(), 0);
-    let output = heliotorque(&[arguments, &["--plot", "-"]].concat()).output().unwrap();
-    assert!(output.status.success() && output.stdout == fs::read(&picture).unwrap(), "{}", text(&output));
-    assert!(run(&[&simulate[..], &["-", "--plot", "-"]].concat(), 1).contains("one file cannot take both"));
+    assert!(run(&[&simulate[..], &["-", "--output", "-"]].concat(), 2).contains("found two files of .csv"));
     let library = probe_library().unwrap();
     let pack = ["pack", "--library", shown(&library), "--model", "AllTypes", "--output", "-"];
     let output = heliotorque(&pack).current_dir(scratch.path()).output().unwrap();
@@ -197,7 +200,7 @@ fn a_dash_is_the_standard_input() {
     assert!(piped.status.success() && piped.stdout == named.stdout, "{}", text(&piped));
     assert!(text(&piped).lines().count() > 8, "{}", text(&piped));
     let wrong = simulate("-", "time,input.rael\n");
-    assert_eq!(wrong.status.code(), Some(1));
+    assert_eq!(wrong.status.code(), Some(2));
     assert!(text(&wrong).contains("-: ") && text(&wrong).contains("near it: input.real"), "{}", text(&wrong));
     assert!(names(&temporary).is_empty(), "{:?}", names(&temporary));
 }
@@ -226,7 +229,7 @@ fn a_new_file_has_the_permissions_of_its_user() {
     let (plain, table) = (scratch.path().join("plain"), scratch.path().join("a.csv"));
     fs::write(&plain, "").unwrap();
     let picture = scratch.path().join("a.svg");
-    run(&["run", shown(&fmu), "--output", shown(&table), "--plot", shown(&picture)], 0);
+    run(&["run", shown(&fmu), "--output", shown(&table), "--output", shown(&picture)], 0);
     let mode = |path: &Path| fs::metadata(path).unwrap().mode();
     for path in [&table, &picture, &fmu] {
         assert_eq!(mode(path), mode(&plain), "{}", path.display());
@@ -257,7 +260,7 @@ fn two_runs_with_one_output_do_not_mix() {
         for output in outputs.iter().filter(|output| !output.status.success()) {
             let reported = text(output);
             assert!(
-                output.status.code() == Some(1)
+                output.status.code() == Some(2)
                     && reported.contains("another run is writing it: see --output"),
                 "{reported}"
             );
@@ -280,7 +283,10 @@ fn the_systems_name_of_the_standard_output_is_a_dash() {
         let output = heliotorque(&["run", shown(&fmu), "--quiet", "--output", name]).output().unwrap();
         assert!(output.status.success() && output.stdout == dash.stdout, "{name}: {output:?}");
     }
-    assert!(run(&["run", shown(&fmu), "--output", "/dev/full"], 1).contains("or - for the standard output"));
+    assert!(
+        run(&["run", shown(&fmu), "--output", "/dev/full"], 2)
+            .contains("or - for CSV on the standard output")
+    );
 }
 
 #[test]
@@ -289,14 +295,14 @@ fn a_command_that_is_refused_leaves_no_folder() {
     let at = |name: &str| scratch.path().join(name);
     std::fs::write(at("bad.toml"), "nothing = 1\n").unwrap();
     let (bad, out) = (at("bad.toml"), at("deep/out"));
-    for command in [&["size"][..], &["plan", "momentum"], &["plan", "leg"]] {
-        crate::run(&[command, &[shown(&bad), "--output", shown(&out)]].concat(), 1);
+    for command in ["size", "plan"] {
+        crate::run(&[command, shown(&bad), "--output", shown(&out)], 2);
         assert!(!at("deep").exists(), "{command:?}");
     }
 }
 
 #[test]
 fn spans_beyond_memory_are_refused_by_name() {
-    let refused = crate::run(&["ephemeris", "--start", "2011-04-06 UTC", "--stop", "3011-04-06 UTC"], 1);
+    let refused = crate::run(&["ephemeris", "--start", "2011-04-06 UTC", "--stop", "3011-04-06 UTC"], 2);
     says(&refused, &["--stop: found \"3011-04-06 UTC\", 1000 years after --start, allowed: up to 100"]);
 }

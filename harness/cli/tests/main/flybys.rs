@@ -1,4 +1,4 @@
-//! `plan flyby` through the FMU: the steps of paper 003, and what is out of reach.
+//! `plan` with `[flyby]` through the FMU: the steps of paper 003, and what is out of reach.
 
 use std::{fs, path::Path};
 
@@ -10,8 +10,9 @@ use crate::{heliotorque, is_long, legs::flyby, momentum_plans::columns, run, say
 const LIMIT_N_M_S: f64 = 5.5;
 
 /// Carries a plan out; what is said.
-pub(crate) fn plan(kind: &str, file: &Path, output: &Path, template: &Path, status: i32) -> String {
-    run(&["plan", kind, shown(file), "--output", shown(output), "--template", shown(template)], status)
+#[track_caller]
+pub(crate) fn plan(file: &Path, output: &Path, template: &Path, status: i32) -> String {
+    run(&["plan", shown(file), "--output", shown(output), "--template", shown(template)], status)
 }
 
 fn json(folder: &Path) -> Value {
@@ -99,10 +100,10 @@ fn led(folder: &Path, template: &Path, momentum: &str, departure: &Departure) {
     leg_from(folder, template, departure);
     let text = format!("mission = \"flyby.toml\"\nfreeze = 0\nwindow = \"10 d\"\n{momentum}");
     fs::write(folder.join("momentum.toml"), text).unwrap();
-    plan("momentum", &folder.join("momentum.toml"), &folder.join("momentum"), template, 0);
+    plan(&folder.join("momentum.toml"), &folder.join("momentum"), template, 0);
     let leg = fs::read_to_string(folder.join("leg.toml")).unwrap();
     fs::write(folder.join("leg.toml"), leg.replace("\"flyby.toml\"", "\"momentum/mission.toml\"")).unwrap();
-    plan("leg", &folder.join("leg.toml"), &folder.join("leg"), template, 0);
+    plan(&folder.join("leg.toml"), &folder.join("leg"), template, 0);
 }
 
 /// Velocity of the leg at its departure, moved along X by an error in m/s.
@@ -236,7 +237,7 @@ fn the_steps_of_the_paper_lead_back_to_the_aim() {
     let departure = if is_long() { OF_THE_PAPER } else { LATE };
     departed(folder, &template, &departure, "");
     let output = folder.join("out");
-    let printed = plan("flyby", &folder.join("plan.toml"), &output, &template, 0);
+    let printed = plan(&folder.join("plan.toml"), &output, &template, 0);
     says(
         &printed,
         &[
@@ -294,7 +295,7 @@ fn an_arrival_that_is_fixed_is_met_to_a_fifth_of_a_second() {
     let folder = folder.path();
     departed(folder, &template, &OF_THE_PAPER, "arrival = \"fixed\"\ntime = \"2008-10-06T08:40:00 UTC\"\n");
     let output = folder.join("out");
-    plan("flyby", &folder.join("plan.toml"), &output, &template, 0);
+    plan(&folder.join("plan.toml"), &output, &template, 0);
     let found = json(&output);
     let late_s = ["lateBefore_s", "lateAfter_s"].map(|key| found[key].as_f64().unwrap());
     let miss_m = numbers(&found["missAfter_m"]);
@@ -331,7 +332,7 @@ fn a_plan_that_tilts_from_the_start_on_leaves_the_momentum_there() {
                 [momentum]\nlimit = \"4.1 N.m.s\"\n[tilt]\nazimuth = \"10 deg\"\nelevation = \"10 deg\"\n";
     fs::write(folder.join("plan.toml"), text).unwrap();
     let output = folder.join("out");
-    plan("momentum", &folder.join("plan.toml"), &output, &template, 0);
+    plan(&folder.join("plan.toml"), &output, &template, 0);
     let names = ["momentum.inertial[1]", "momentum.inertial[2]", "momentum.inertial[3]", "sun.elevation"];
     let first = |mission: &Path| {
         let rows = mission.with_extension("first.csv");
@@ -383,8 +384,7 @@ fn dispersed_flights_spread_as_the_covariance_says_on_any_number_of_threads() {
     fs::write(&file, text).unwrap();
     let of_threads = ["1", "2"].map(|threads| {
         let output = folder.join(threads);
-        let arguments =
-            ["plan", "flyby", shown(&file), "--output", shown(&output), "--template", shown(&template)];
+        let arguments = ["plan", shown(&file), "--output", shown(&output), "--template", shown(&template)];
         let done = heliotorque(&arguments).env("RAYON_NUM_THREADS", threads).output().unwrap();
         assert_eq!(done.status.code(), Some(0), "{}", crate::text(&done));
         json(&output)
@@ -458,7 +458,7 @@ fn without_an_aim_the_encounter_of_the_mission_is_described() {
                 [compare]\nnext = \"2008-10-06T08:40:00 UTC\"\napproach = []\n";
     let (file, output) = (folder.join("plan.toml"), folder.join("out"));
     fs::write(&file, text).unwrap();
-    says(&plan("flyby", &file, &output, &template, 0), &["Mercury, 6 h before closest approach: aim B.T"]);
+    says(&plan(&file, &output, &template, 0), &["Mercury, 6 h before closest approach: aim B.T"]);
     let found = json(&output);
     assert_eq!((&found["status"], &found["missAfter_m"]), (&"withoutAim".into(), &Value::Null));
     assert!(!output.join("mission.toml").exists());
@@ -502,7 +502,7 @@ fn what_is_out_of_reach_is_refused_with_the_polygon() {
         departure.corrected_from
     );
     fs::write(&file, text).unwrap();
-    let printed = plan("flyby", &file, &folder.join("far"), &template, 1);
+    let printed = plan(&file, &folder.join("far"), &template, 1);
     says(&printed, &["not found: arrays and attitudes that lead to the aim", "reach +T"]);
     let found = json(&folder.join("far"));
     assert_eq!(found["status"], "notFound");
@@ -538,7 +538,7 @@ fn an_update_leaves_the_clock_of_a_timeline() {
             froms[of_file], ats[of_file]
         );
         fs::write(folder.join("plan.toml"), text).unwrap();
-        plan("flyby", &folder.join("plan.toml"), &folder.join("out"), &template, 1);
+        plan(&folder.join("plan.toml"), &folder.join("out"), &template, 1);
         let found = json(&folder.join("out"));
         let mut missed = numbers(&found["missBefore_m"]);
         missed.push(found["desiredDeltaV"][0]["at_s"].as_f64().unwrap());

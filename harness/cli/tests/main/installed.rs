@@ -38,7 +38,7 @@ fn a_program_with_its_library_beside_it_works_in_an_empty_folder() {
     // Alone it says what is missing and what helps.
     let (status, reported) = run_in(&folder, &program, &["check", "ace.toml"]);
     assert!(
-        status == Some(1) && reported.contains("--template") && reported.contains("xtask install"),
+        status == Some(2) && reported.contains("--template") && reported.contains("xtask install"),
         "{reported}"
     );
     let own = at("prefix/lib/heliotorque").join(library.file_name().unwrap());
@@ -55,7 +55,7 @@ fn a_program_with_its_library_beside_it_works_in_an_empty_folder() {
     works(&["pack", "--model", "Guidance"], "Guidance.fmu: Guidance, ");
     works(&["info", "Ace.fmu", "--only", "burn.count"], "burn.count");
     works(&["run", "Ace.fmu", "--stop", "60", "--output", "ace.csv"], "");
-    works(&["plan", "spin", "--fmu", "Ace.fmu"], "Re-simulated through Ace.fmu");
+    works(&["plan", "spin", "--template", "Ace.fmu"], "Re-simulated through Ace.fmu");
     // A shipped FMU is found by its name, and where it stands in the project; what is here comes first.
     fs::rename(folder.join("Guidance.fmu"), own.with_file_name("Shipped.fmu")).unwrap();
     for name in ["Shipped.fmu", "dist/Shipped.fmu"] {
@@ -67,13 +67,13 @@ fn a_program_with_its_library_beside_it_works_in_an_empty_folder() {
     for name in ["other/Shipped.fmu", "../dist/Shipped.fmu", "Absent.fmu"] {
         let (status, reported) = run_in(&folder, &program, &["info", name]);
         assert!(
-            status == Some(1) && reported.contains(name) && !reported.contains("is not here"),
+            status == Some(2) && reported.contains(name) && !reported.contains("is not here"),
             "{reported}"
         );
     }
     fs::write(folder.join("Shipped.fmu"), "not an archive").unwrap();
     let (status, reported) = run_in(&folder, &program, &["info", "Shipped.fmu"]);
-    assert!(status == Some(1) && !reported.contains("is not here"), "{reported}");
+    assert!(status == Some(2) && !reported.contains("is not here"), "{reported}");
     // What stands in the folder by chance is not taken.
     fs::create_dir(folder.join("dist")).unwrap();
     fs::write(folder.join("dist/MomentumPlant.fmu"), "not an archive").unwrap();
@@ -86,7 +86,7 @@ fn a_program_with_its_library_beside_it_works_in_an_empty_folder() {
     }
     let (status, reported) = run_in(&folder, &program, &["study", "spin/figure3"]);
     assert!(
-        status == Some(1) && reported.contains(shown(own.parent().unwrap())) && reported.contains("--dist"),
+        status == Some(2) && reported.contains(shown(own.parent().unwrap())) && reported.contains("--dist"),
         "{reported}"
     );
 }
@@ -101,7 +101,7 @@ fn a_file_that_is_wrong_is_judged_as_what_it_is() {
     let output = at("x.fmu");
     let pack =
         ["pack", "--template", shown(&template), "--output", shown(&output), "--spacecraft", shown(&wrong)];
-    let reported = crate::run(&pack, 1);
+    let reported = crate::run(&pack, 2);
     assert!(reported.contains("thrusters.resolution_s") && !reported.contains("unknown"), "{reported}");
     fs::write(&wrong, ace).unwrap();
     assert!(crate::run(&pack, 0).contains("x.fmu: SpinPlant, "));
@@ -109,6 +109,6 @@ fn a_file_that_is_wrong_is_judged_as_what_it_is() {
     let messenger = include_str!("../../../../fmu-src/resources/messenger.toml");
     fs::write(&wrong, format!("{messenger}\n[start.MomentumPlant]\n\"pointing.scenario\" = \"nadir\"\n"))
         .unwrap();
-    let reported = crate::run(&pack, 1);
+    let reported = crate::run(&pack, 2);
     assert!(reported.contains("pointing.scenario"), "{reported}");
 }

@@ -54,6 +54,7 @@ fn kernel(name: &str) -> PathBuf {
 }
 
 /// The command with kernels from the start to a date.
+#[track_caller]
 fn fit(kernels: &[&Path], stop: &str, more: &[&str], status: i32) -> String {
     let mut arguments = vec!["ephemeris", "--start", START, "--stop", stop];
     for kernel in kernels {
@@ -229,7 +230,7 @@ fn a_flight_between_planets_goes_by_kernels() {
 fn a_span_that_is_not_covered_is_reported_with_the_one_that_is() {
     let (planets, spacecraft_spk) = (kernel("planets.bsp"), kernel("craft.bsp"));
     let both = [planets.as_path(), &spacecraft_spk];
-    let text = fit(&both, "2011-05-04 UTC", &[], 1);
+    let text = fit(&both, "2011-05-04 UTC", &[], 2);
     says(
         &text,
         &[
@@ -238,41 +239,41 @@ fn a_span_that_is_not_covered_is_reported_with_the_one_that_is() {
             "planets.bsp, craft.bsp places Sun (10)",
         ],
     );
-    let text = fit(&both, "2011-04-05 TDB", &["--bodies", "spacecraft"], 1);
+    let text = fit(&both, "2011-04-05 TDB", &["--bodies", "spacecraft"], 2);
     assert!(text.contains("to 2011-04-03T23:58:53.814 UTC") && text.contains("MESSENGER (-236)"), "{text}");
     // A gap within the span.
-    let text = fit(&both, "2011-04-03T06:00 TDB", &["--bodies", "spacecraft", "--spacecraft", "-121"], 1);
+    let text = fit(&both, "2011-04-03T06:00 TDB", &["--bodies", "spacecraft", "--spacecraft", "-121"], 2);
     let spans = "from 2011-04-01T23:58:53.814 UTC to 2011-04-02T11:58:53.814 UTC or from \
                  2011-04-02T23:58:53.814 UTC to 2011-04-03T11:58:53.814 UTC";
     assert!(text.contains(spans) && text.contains("spacecraft -121"), "{text}");
     // The coarse models may reach further than the kernels.
-    let text = fit(&both, "2011-04-04 TDB", &["--coarse", "--coarse-until", "2011-06-01 UTC"], 1);
+    let text = fit(&both, "2011-04-04 TDB", &["--coarse", "--coarse-until", "2011-06-01 UTC"], 2);
     assert!(text.contains("to 2011-06-01T00:00:00 UTC, allowed"), "{text}");
     // Before UTC dates are in TDB.
     let early =
         ["ephemeris", "--start", "1950-01-01 TDB", "--stop", "1950-02-01 TDB", "--output", "-", "--kernel"];
-    let text = run(&[&early[..], &[shown(&planets)]].concat(), 1);
+    let text = run(&[&early[..], &[shown(&planets)]].concat(), 2);
     assert!(text.contains("found 1950-01-01T00:00:00 TDB to 1950-02-01T00:00:00 TDB"), "{text}");
 }
 
 #[test]
 fn a_body_that_no_kernel_holds_is_reported_with_those_that_are() {
     let (planets, spacecraft_spk) = (kernel("planets.bsp"), kernel("craft.bsp"));
-    let text = fit(&[&planets], "2011-04-03 TDB", &["--bodies", "spacecraft"], 1);
+    let text = fit(&[&planets], "2011-04-03 TDB", &["--bodies", "spacecraft"], 2);
     says(&text, &["--kernel: found no MESSENGER (-236) in planets.bsp, allowed: Solar System"]);
-    let text = fit(&[&spacecraft_spk], "2011-04-03 TDB", &[], 1);
+    let text = fit(&[&spacecraft_spk], "2011-04-03 TDB", &[], 2);
     assert!(text.contains("found no Sun (10) in craft.bsp, allowed: MESSENGER (-236)"), "{text}");
-    let text = fit(&[&planets], "2011-04-03 TDB", &["--center", "jupiter"], 1);
+    let text = fit(&[&planets], "2011-04-03 TDB", &["--center", "jupiter"], 2);
     assert!(text.contains("found no Jupiter (599) in planets.bsp"), "{text}");
-    let text = fit(&[&planets], "2011-04-03 TDB", &["--bodies", "moon"], 1);
+    let text = fit(&[&planets], "2011-04-03 TDB", &["--bodies", "moon"], 2);
     assert!(text.contains("found no Moon (301) in planets.bsp"), "{text}");
-    let text = fit(&[&planets], "2011-04-03 TDB", &["--bodies", "venus"], 1);
+    let text = fit(&[&planets], "2011-04-03 TDB", &["--bodies", "venus"], 2);
     assert!(text.contains("found no Venus (299) in planets.bsp"), "{text}");
     let text = fit(&[&planets], "2011-04-03 TDB", &["--center", "saturn"], 2);
     assert!(text.contains("--center <BODY>") && text.contains("or its NAIF id"), "{text}");
-    let text = fit(&[&planets], "2011-04-03 TDB", &["--center", "sun"], 1);
+    let text = fit(&[&planets], "2011-04-03 TDB", &["--center", "sun"], 2);
     assert!(text.contains("--bodies: sun is the center"), "{text}");
-    let text = fit(&[&planets], "2011-04-03 TDB", &["--spacecraft", "-236"], 1);
+    let text = fit(&[&planets], "2011-04-03 TDB", &["--spacecraft", "-236"], 2);
     assert!(text.contains("--spacecraft: allowed where --bodies names the spacecraft"), "{text}");
     // What belongs to kernels stands beside them, and what belongs to a flight does not.
     assert!(fit(&[], "2011-04-03 TDB", &["--center", "sun"], 2).contains("--kernel <BSP>"));
@@ -294,7 +295,7 @@ fn damaged_and_foreign_files_are_refused_by_name() {
     let path = scratch.path().join("mine.bsp");
     let refused = |bytes: &[u8]| {
         fs::write(&path, bytes).unwrap();
-        fit(&[&path], "2011-04-03 TDB", &["--bodies", "spacecraft"], 1)
+        fit(&[&path], "2011-04-03 TDB", &["--bodies", "spacecraft"], 2)
     };
     // The list of the segments is record 2: next, previous, count, and 40 bytes for each segment.
     let (list, second) = (1024, 1024 + 24 + 40);
@@ -333,9 +334,9 @@ fn damaged_and_foreign_files_are_refused_by_name() {
         assert!(text.contains(printed), "{what}: {text}");
     }
     let absent = scratch.path().join("none.bsp");
-    assert!(fit(&[&absent], "2011-04-03 TDB", &[], 1).contains("none.bsp: "));
+    assert!(fit(&[&absent], "2011-04-03 TDB", &[], 2).contains("none.bsp: "));
     // No kernel is overwritten by what is made of it.
     fs::write(&path, &bytes).unwrap();
-    let text = fit(&[&path], "2011-04-03 TDB", &["--bodies", "spacecraft", "--output", shown(&path)], 1);
+    let text = fit(&[&path], "2011-04-03 TDB", &["--bodies", "spacecraft", "--output", shown(&path)], 2);
     assert!(text.contains("--output") && fs::read(&path).unwrap() == bytes, "{text}");
 }

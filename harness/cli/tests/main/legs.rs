@@ -1,4 +1,4 @@
-//! `plan leg`: the shipped missions come from it, what it writes meets its aimpoint as it is simulated, and what cannot be is refused.
+//! `heliotorque plan` of a leg: the shipped missions come from it, what it writes meets its aimpoint as it is simulated, and what cannot be is refused.
 
 use std::{fs, path::Path};
 
@@ -40,8 +40,9 @@ pub(crate) fn flyby(folder: &Path, number: u32, edits: &[(&str, &str)]) {
 }
 
 /// Plans a leg file; what is said.
+#[track_caller]
 fn plan(leg: &Path, output: &Path, template: &Path, status: i32) -> String {
-    run(&["plan", "leg", shown(leg), "--output", shown(output), "--template", shown(template)], status)
+    run(&["plan", shown(leg), "--output", shown(output), "--template", shown(template)], status)
 }
 
 /// Simulates a mission with steps of a time in s and gives columns of it.
@@ -201,7 +202,7 @@ fn a_path_into_a_body_is_named_with_time_and_speed() {
         ("revolutions = 1\nbranch = \"left\"\n", ""),
     ];
     flyby(folder, 2, &edits);
-    let printed = plan(&folder.join("leg.toml"), &folder.join("out"), &template, 1);
+    let printed = plan(&folder.join("leg.toml"), &folder.join("out"), &template, 2);
     says(&printed, &["leg.toml:", "the Sun", "m/s"]);
     assert!(!folder.join("out/plan.json").exists());
 }

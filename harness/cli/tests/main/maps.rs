@@ -106,7 +106,7 @@ fn every_direction_is_what_the_fmu_says() {
     let Some((_room, fmu_path)) = packed(MESSENGER) else { return };
     let fmu = Fmu::open(&fmu_path).unwrap();
     let csv = mapped(&words(&format!(
-        "{MESSENGER} --template {} --distance 0.3 --step 1deg --csv - --no-picture --quiet",
+        "{MESSENGER} --template {} --distance 0.3 --step 1deg --output - --quiet",
         shown(&fmu_path)
     )));
     let rows = rows(&csv);
@@ -141,13 +141,13 @@ fn lines_and_balances_are_where_the_torque_vanishes() {
         let set = format!("spacecraft.centerOfMass={}m,{}m,{}m", center_m[0], center_m[1], center_m[2]);
         let csv = |option: &str| {
             let spacecraft = [MESSENGER, "--template", shown(&fmu_path), "--distance", "0.4", "--set", &set];
-            mapped(&[&spacecraft[..], &["--step", "2deg", "--no-picture", "--quiet", option, "-"]].concat())
+            mapped(&[&spacecraft[..], &["--step", "2deg", "--quiet", option, "-"]].concat())
         };
         let mut torque = Torque::new(&fmu);
         for (axis, value) in center_m.into_iter().enumerate() {
             torque.instance.set_real(&format!("spacecraft.centerOfMass[{}]", axis + 1), value).unwrap();
         }
-        let sphere = rows(&csv("--csv"));
+        let sphere = rows(&csv("--output"));
         let most = ["torque_x_n_m", "torque_y_n_m", "torque_z_n_m"]
             .map(|name| sphere.iter().map(|row| row[name].abs()).fold(0.0, f64::max));
         let lines = csv("--lines");
@@ -304,7 +304,7 @@ fn torque_goes_with_the_inverse_square_and_follows_the_options() {
     let Some((_room, fmu_path)) = packed(MESSENGER) else { return };
     let csv = |more: &[&str]| {
         let template = ["--template", shown(&fmu_path)];
-        let all = words("--step 10deg --csv - --no-picture --quiet");
+        let all = words("--step 10deg --output - --quiet");
         rows(&mapped(&[&[MESSENGER], &template[..], &all, more].concat()))
     };
     let (near, far) = (csv(&["--distance", "0.3"]), csv(&["--distance", "0.6 AU"]));
@@ -327,10 +327,8 @@ fn torque_goes_with_the_inverse_square_and_follows_the_options() {
     let still = csv(&["--set", "panel[1].control=angle", "--set", "panel[1].angle=12deg"]);
     assert!(still.iter().all(|row| (row["panel_1_angle_deg"] - 12.0).abs() < 1e-9));
     // The packed FMU is the same spacecraft.
-    let of_fmu = mapped(&words(&format!(
-        "{} --distance 0.3 --step 10deg --csv - --no-picture --quiet",
-        shown(&fmu_path)
-    )));
+    let of_fmu =
+        mapped(&words(&format!("{} --distance 0.3 --step 10deg --output - --quiet", shown(&fmu_path))));
     assert_eq!(rows(&of_fmu).len(), near.len());
     assert!(rows(&of_fmu).iter().zip(&near).all(|(one, other)| one["torque_z_n_m"] == other["torque_z_n_m"]));
 }
@@ -346,7 +344,7 @@ fn the_picture_shows_lines_and_a_mission() {
     fs::write(&simulated, recorded).unwrap();
     let svg = room.path().join("my.svg");
     let line = format!(
-        "{MESSENGER} --template {} --distance 0.387 --mission {} --output {}",
+        "{MESSENGER} --template {} --distance 0.387 --recording {} --output {}",
         shown(&fmu_path),
         shown(&simulated),
         shown(&svg)
@@ -387,24 +385,28 @@ fn what_cannot_be_mapped_is_refused_by_name() {
     let Some((room, fmu_path)) = packed(MESSENGER) else { return };
     let wrong = room.path().join("wrong.csv");
     fs::write(&wrong, "time,mass\n0,1\n600,1\n").unwrap();
-    let template = ["--template", shown(&fmu_path), "--step", "10deg", "--no-picture"];
+    let template = ["--template", shown(&fmu_path), "--step", "10deg"];
     for (spacecraft, arguments, expected) in [
         (MESSENGER, &["--set", "spacecraft.center=1"][..], "spacecraft.center"),
         (MESSENGER, &["--set", "keepIn.azimuth=0deg"], "keepIn.azimuth"),
-        (MESSENGER, &["--mission", shown(&wrong)], "torque.total[1] to [3], nor momentum.body"),
+        (MESSENGER, &["--recording", shown(&wrong)], "torque.total[1] to [3], nor momentum.body"),
         (MESSENGER, &["--set", "keepIn.azimuth=-1deg"], "found -1deg"),
-        (MESSENGER, &["--mission", "no/such.csv"], "no/such.csv"),
-        (MESSENGER, &["--csv", "-", "--lines", "-"], "one file cannot take both: see --csv and --lines"),
+        (MESSENGER, &["--recording", "no/such.csv"], "no/such.csv"),
+        (
+            MESSENGER,
+            &["--output", "-", "--lines", "-"],
+            "one file cannot take both: see --output and --lines",
+        ),
         ("no/such.toml", &[], "no/such.toml"),
         ("../../fmu-src/resources/ace.toml", &[], "ace.toml"),
     ] {
-        let printed = run(&[&["map", spacecraft][..], &template, arguments].concat(), 1);
+        let printed = run(&[&["map", spacecraft][..], &template, arguments].concat(), 2);
         assert!(printed.contains(expected), "{spacecraft} {arguments:?}: {printed}");
     }
     assert!(
-        run(&["map", MESSENGER, "--template", shown(&fmu_path), "--output", "x.png"], 1).contains("--output")
+        run(&["map", MESSENGER, "--template", shown(&fmu_path), "--output", "x.png"], 2).contains("--output")
     );
-    assert!(run(&["map", shown(&fmu_path), "--template", shown(&fmu_path)], 1).contains("--template"));
+    assert!(run(&["map", shown(&fmu_path), "--template", shown(&fmu_path)], 2).contains("--template"));
     // Neither shade nor panels: what remains is mapped, an offset has nothing to hold.
     let bare = room.path().join("bare.toml");
     let plate = "name = \"A\"\n[mass_properties]\nmass_kg = 100.0\ncenter_of_mass_m = [0.0, 0.0, 0.0]\n\
@@ -435,7 +437,7 @@ fn what_cannot_be_mapped_is_refused_by_name() {
     let ignored = ["--zone", "180deg,90deg"];
     let reported = run(&[&["map", MESSENGER][..], &template, &ignored].concat(), 0);
     assert!(reported.contains("Sun keep-in zone: none"), "{reported}");
-    let refused = run(&[&["map", shown(&bare)][..], &template, &["--panel-offset", "50deg"]].concat(), 1);
+    let refused = run(&[&["map", shown(&bare)][..], &template, &["--panel-offset", "50deg"]].concat(), 2);
     assert!(refused.contains("--panel-offset") && refused.contains("no panel"), "{refused}");
 }
 

@@ -72,7 +72,7 @@ fn a_mission_is_simulated_as_it_is_written_and_options_win() {
         &words(
             "--stop 1h --every 60s --record times*,dump.threshold --output mine.csv --set dump.threshold[2]=3",
         ),
-        1,
+        2,
     );
     assert!(reported.contains("times*"), "{reported}");
     let more = ["--stop", "1h", "--every", "60s", "--record", "dump.threshold", "--output", "mine.csv"];
@@ -85,7 +85,7 @@ fn a_mission_is_simulated_as_it_is_written_and_options_win() {
 fn a_limit_that_breaks_is_reported_with_its_time_and_ends_with_one() {
     let Some((scratch, _)) = template() else { return };
     let folder = scratch.path();
-    let text = MISSION.replace(r#"min = "-20 deg", max = "20 deg""#, "min = 100");
+    let text = MISSION.replace(r#"min = "-20 deg", max = "20 deg""#, "min = \"100 rad\"");
     fs::write(folder.join("m.toml"), text).unwrap();
     let reported = printed(folder, &["run", "m.toml", "--template", "template.fmu", "--quiet"], 1);
     let expected = "m.toml:18: limits.\"sun.elevation\": found ";
@@ -102,7 +102,7 @@ fn a_packed_mission_starts_as_the_mission_does() {
     fs::write(folder.join("m.toml"), &text).unwrap();
     let reported = printed(
         folder,
-        &words("pack --mission m.toml --template template.fmu --name Mine --set dump.threshold[3]=5"),
+        &words("pack m.toml --template template.fmu --name Mine --set dump.threshold[3]=5"),
         0,
     );
     assert!(reported.contains("Mine.fmu: Mine, "), "{reported}");
@@ -119,7 +119,7 @@ fn a_packed_mission_starts_as_the_mission_does() {
     fs::write(folder.join("of-fmu.toml"), text).unwrap();
     printed(folder, &["run", "of-fmu.toml", "--output", "again.csv"], 0);
     assert_eq!(rows(&folder.join("again.csv")), of_mission);
-    let reported = printed(folder, &["pack", "--mission", "of-fmu.toml", "--template", "template.fmu"], 1);
+    let reported = printed(folder, &["pack", "--mission", "of-fmu.toml", "--template", "template.fmu"], 2);
     assert!(reported.contains("which is packed already"), "{reported}");
 }
 
@@ -154,12 +154,12 @@ fn the_files_of_a_mission_are_not_written_over() {
     let folder = scratch.path();
     let mission = MISSION.replace("output = \"out.csv\"", "output = \"m.toml\"");
     fs::write(folder.join("m.toml"), &mission).unwrap();
-    let reported = printed(folder, &["run", "m.toml", "--template", "template.fmu"], 1);
+    let reported = printed(folder, &["run", "m.toml", "--template", "template.fmu"], 2);
     assert!(reported.contains("m.toml"), "{reported}");
     assert_eq!(fs::read_to_string(folder.join("m.toml")).unwrap(), mission);
     let two = MISSION.replace("[set]", "[[plot]]\nfile = \"momentum.svg\"\n[set]");
     fs::write(folder.join("m.toml"), two).unwrap();
-    let reported = printed(folder, &["run", "m.toml", "--template", "template.fmu"], 1);
+    let reported = printed(folder, &["run", "m.toml", "--template", "template.fmu"], 2);
     assert!(reported.contains("one file cannot take two pictures"), "{reported}");
 }
 
@@ -167,10 +167,10 @@ fn the_files_of_a_mission_are_not_written_over() {
 fn what_is_no_mission_is_reported() {
     let scratch = tempfile::tempdir().unwrap();
     let spacecraft = format!("{RESOURCES}/messenger.toml");
-    let reported = run(&["run", &spacecraft], 1);
+    let reported = run(&["run", &spacecraft], 2);
     says(&reported, &["found a spacecraft, allowed: a mission: ", "heliotorque new mission"]);
     let fmu = scratch.path().join("no.fmu");
-    assert!(run(&["run", shown(&fmu), "--template", "x.fmu"], 1).contains("--template is for a mission"));
+    assert!(run(&["run", shown(&fmu), "--template", "x.fmu"], 2).contains("--template is for a mission"));
 }
 
 #[test]
@@ -245,7 +245,7 @@ fn what_a_flight_warns_of_is_said_once_and_a_mission_s_orbit_gives_the_default_d
 fn refused(folder: &Path, name: &str) -> String {
     let template = ["--template", "template.fmu"];
     let checked = printed(folder, &[&["check", name], &template[..]].concat(), 1);
-    let reported = printed(folder, &[&["run", name], &template[..]].concat(), 1);
+    let reported = printed(folder, &[&["run", name], &template[..]].concat(), 2);
     let reason = reported.lines().find_map(|line| line.strip_prefix("heliotorque: ")).unwrap();
     // The call is made at the same place by both.
     assert!(checked.contains(reason.trim_start_matches("m: ")), "{name}: {checked}\n{reported}");
@@ -297,8 +297,8 @@ fn what_a_mission_writes_stays_beside_it_and_replaces_no_file_of_others() {
         ("../x.csv", "x.svg", "--output"),
         (shown(&absolute), "x.svg", "--output"),
         ("link/x.csv", "x.svg", "--output"),
-        ("x.csv", "../x.svg", "--plot"),
-        ("x.csv", "link/x.svg", "--plot"),
+        ("x.csv", "../x.svg", "--output"),
+        ("x.csv", "link/x.svg", "--output"),
     ] {
         mission(output_to, plot_to);
         let reported = refused(&home, "m.toml");
@@ -309,12 +309,12 @@ fn what_a_mission_writes_stays_beside_it_and_replaces_no_file_of_others() {
         printed(&home, &[&["run", "m.toml", "--template", "template.fmu", "--quiet"], more].concat(), status)
     };
     mission("../x.csv", "../x.svg");
-    let reported = run(&["--output", "../away/a.csv", "--plot", "../away/a.svg"], 0);
+    let reported = run(&["--output", "../away/a.csv", "--output", "../away/a.svg"], 0);
     assert!(folder.join("away/a.csv").exists() && folder.join("away/a.svg").exists(), "{reported}");
 
     // A file that no run wrote stays; what a run wrote is replaced without a word, a table of another kind with one.
     mission("deep/x.csv", "x.svg");
-    for (name, option) in [("deep/x.csv", "--output"), ("x.svg", "--plot")] {
+    for (name, option) in [("deep/x.csv", "--output"), ("x.svg", "--output")] {
         fs::write(home.join(name), "precious").unwrap();
         let reported = refused(&home, "m.toml");
         says(&reported, &["a file that no run wrote", &format!("{option} replaces any")]);

@@ -12,7 +12,7 @@ fn a_plan_is_simulated_through_the_fmu_in_dist() {
     let Some(library) = library() else { return };
     let scratch = tempfile::tempdir().unwrap();
     let plan = |arguments: &[&str]| {
-        let output = heliotorque(&[&["plan", "spin", "--angle", "2"], arguments].concat())
+        let output = heliotorque(&[&["plan", "spin", "--angle", "2deg"], arguments].concat())
             .current_dir(scratch.path())
             .output()
             .unwrap();
@@ -23,7 +23,7 @@ fn a_plan_is_simulated_through_the_fmu_in_dist() {
     std::fs::create_dir(scratch.path().join("dist")).unwrap();
     let fmu = scratch.path().join("dist").join("SpinPlant.fmu");
     run(&["pack", "--library", shown(&library), "--model", "SpinPlant", "--output", shown(&fmu)], 0);
-    let (status, text) = plan(&["--max-nutation", "0.02"]);
+    let (status, text) = plan(&["--max-nutation", "0.02deg"]);
     let line = text.lines().find(|line| line.starts_with("Re-simulated")).unwrap_or_else(|| panic!("{text}"));
     assert!(status == Some(0) && line.contains("dist/SpinPlant.fmu: 24 ratios"), "{line}");
     assert!(line.ends_with("the flags' limits kept"), "{line}");
@@ -38,8 +38,8 @@ fn a_plan_is_simulated_through_the_fmu_in_dist() {
     std::fs::write(&fmu, "not an archive").unwrap();
     let (status, text) = plan(&[]);
     assert!(status == Some(0) && text.contains("Not re-simulated: ") && text.contains("archive"), "{text}");
-    let (status, text) = plan(&["--fmu", "dist/SpinPlant.fmu"]);
-    assert!(status == Some(1) && text.contains("archive"), "{text}");
+    let (status, text) = plan(&["--template", "dist/SpinPlant.fmu"]);
+    assert!(status == Some(2) && text.contains("archive"), "{text}");
 }
 
 /// The last row of a recording, by column.
@@ -72,18 +72,42 @@ fn the_printed_start_values_lead_to_where_the_plan_says() {
     run(&[&pack[..], &[shown(&fmu), "--spacecraft", ace]].concat(), 0);
     let date = "2026-11-22T12:00:00 UTC";
     for (k, (status, arguments)) in [
-        (0, vec!["--date", date, "--earth", "70,20", "--from", "251.5,-21.5", "--target", "248.8,-18.5"]),
+        (
+            0,
+            vec![
+                "--date",
+                date,
+                "--earth",
+                "70deg,20deg",
+                "--from",
+                "251.5deg,-21.5deg",
+                "--target",
+                "248.8deg,-18.5deg",
+            ],
+        ),
         // The Earth stands beyond the file's 3 deg, so strong a thruster nutates too much, 4 rpm are below its 4.9 rpm.
-        (1, vec!["--date", date, "--from", "245,-22", "--target", "249,-18", "--max-nutation", "0.04"]),
+        (
+            1,
+            vec![
+                "--date",
+                date,
+                "--from",
+                "245deg,-22deg",
+                "--target",
+                "249deg,-18deg",
+                "--max-nutation",
+                "0.04deg",
+            ],
+        ),
         (
             1,
             [
-                words("--sun 237,-20 --from 240,-5 --angle 3 --direction 70 --thruster"),
+                words("--sun 237deg,-20deg --from 240deg,-5deg --angle 3deg --direction 70deg --thruster"),
                 vec!["upper radial I"],
             ]
             .concat(),
         ),
-        (1, words("--angle 2 --ratio 1.5 --propellant 40 --rate-rpm 4 --timing phase")),
+        (1, words("--angle 2deg --ratio 1.5 --propellant 40 --rate 4rpm --timing phase")),
     ]
     .into_iter()
     .enumerate()
@@ -163,9 +187,9 @@ fn a_plan_that_breaks_a_limit_of_the_file_ends_with_status_1() {
     run(&["new", "spinner", shown(&file)], 0);
     let plan = ["plan", "spin", "--spacecraft", shown(&file), "--output", shown(&folder)];
     for turn in [
-        &["--angle", "2"][..],
-        &["--angle", "10", "--sun-angle", "15"],
-        &["--date", "2026-11-22 UTC", "--from", "245,-22", "--target", "240,-18"],
+        &["--angle", "2deg"][..],
+        &["--angle", "10deg", "--sun-angle", "15deg"],
+        &["--date", "2026-11-22 UTC", "--from", "245deg,-22deg", "--target", "240deg,-18deg"],
     ] {
         let reported = run(&[&plan[..], turn].concat(), 0);
         assert!(
@@ -177,7 +201,7 @@ fn a_plan_that_breaks_a_limit_of_the_file_ends_with_status_1() {
     let tight = template.replace("period_variation_s = 0.05", "period_variation_s = 0.01");
     assert_ne!(tight, template);
     std::fs::write(&file, tight).unwrap();
-    let reported = run(&[&plan[..], &["--angle", "2"]].concat(), 1);
+    let reported = run(&[&plan[..], &["--angle", "2deg"]].concat(), 1);
     assert!(reported.contains("limits broken: spin period varies"), "{reported}");
     assert!(!reported.contains("limits kept") && !reported.contains("within the limits"), "{reported}");
     assert!(folder.join("burn.csv").exists());
@@ -190,7 +214,7 @@ fn a_plan_never_writes_over_the_spacecrafts_file() {
     let ace = include_str!("../../../../fmu-src/resources/ace.toml");
     std::fs::write(&file, ace).unwrap();
     let folder = shown(scratch.path());
-    let text = run(&["plan", "spin", "--spacecraft", shown(&file), "--output", folder], 1);
+    let text = run(&["plan", "spin", "--spacecraft", shown(&file), "--output", folder], 2);
     assert!(text.contains("it is an input too") && text.contains("--output"), "{text}");
     assert_eq!(std::fs::read_to_string(&file).unwrap(), ace);
     assert_eq!(std::fs::read_dir(scratch.path()).unwrap().count(), 1, "nothing else is written");

@@ -62,7 +62,7 @@ fn a_recording_is_drawn_as_run_draws_it() {
         "10min",
         "--output",
         shown(&csv),
-        "--plot",
+        "--output",
         shown(&of_run),
     ];
     let recorded = "torque.solar,momentum.inertial,attitude.q,sun.litFraction,sun.distance,dump.count";
@@ -97,7 +97,7 @@ fn several_tables_have_a_colour_each() {
 
 fn run_in(folder: &Path, arguments: &[&str]) -> String {
     let output = heliotorque(arguments).current_dir(folder).output().unwrap();
-    assert_eq!(output.status.code(), Some(1), "{arguments:?}: {}", text(&output));
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", text(&output));
     text(&output)
 }
 

@@ -175,10 +175,9 @@ fn a_fit_that_is_not_trusted_says_so_and_no_plan_takes_it() {
     let plan = file("plan.toml");
     fs::write(&plan, "mission = \"mission.toml\"\n[momentum]\nlimit = 5\nrefit = \"refit.toml\"\n").unwrap();
     let out = file("out");
-    let arguments =
-        ["plan", "momentum", shown(&plan), "--output", shown(&out), "--template", shown(&template)];
+    let arguments = ["plan", shown(&plan), "--output", shown(&out), "--template", shown(&template)];
     says(
-        &run(&arguments, 1),
+        &run(&arguments, 2),
         &["plan.toml:4: momentum.refit: found ", "a fit that is not trusted, chi square "],
     );
     // A prior that excludes what the history says.
@@ -223,9 +222,9 @@ fn what_cannot_be_fitted_is_refused_by_name() {
     refused(guidance, &[], "mission has no variable attitude.source, allowed: a MomentumPlant");
     let over_time = plain.replace("[inputs]", "[inputs]\n\"solar.scale\" = [[0, 1.0], [600, 1.1]]");
     refused(&over_time, &[], "inputs: found solar.scale over time, allowed: one value");
-    refused(&plain, &["--prior-center", "0"], "'--prior-center <M>': allowed is a number above 0");
+    refused(&plain, &["--prior-center", "0"], "'--prior-center <M>': allowed is a number of m above 0");
     refused(&plain, &["--prior-scale", "0"], "'--prior-scale <S>': allowed is a number above 0");
-    refused(&plain, &["--noise", "-1"], "'--noise <N.m.s>': allowed is a number above 0");
+    refused(&plain, &["--noise", "-1"], "'--noise <N.m.s>': allowed is a number of N.m.s above 0");
     fs::write(&rows, format!("{header}0,0,0,0\n600,,0,0\n")).unwrap();
     refused(
         &plain,

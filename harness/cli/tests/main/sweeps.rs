@@ -94,7 +94,7 @@ fn an_interrupted_sweep_goes_on_with_what_it_has() {
     assert!(left.len() < whole.len() && whole.starts_with(&left), "{} of {} bytes", left.len(), whole.len());
     // Another campaign does not continue with it.
     fs::write(&file, format!("fmu = \"Functions.fmu\"\n{}", text.replace("seed = 5", "seed = 6"))).unwrap();
-    let refused = run(&[&arguments[..], &["--resume"]].concat(), 1);
+    let refused = run(&[&arguments[..], &["--resume"]].concat(), 2);
     says(&refused, &["runs.csv.part.toml: found another campaign"]);
     fs::write(&file, format!("fmu = \"Functions.fmu\"\n{text}")).unwrap();
     // The end of a row that was cut off is written anew.
@@ -176,7 +176,7 @@ fn a_full_disk_leaves_what_was_written() {
     let mut shell = Command::new("sh");
     let output = shell.args(["-c", script]).arg(program).args([&file, &runs]).output().unwrap();
     let text = crate::text(&output);
-    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert_eq!(output.status.code(), Some(2), "{text}");
     says(&text, &["runs.csv.part: ", "--output"]);
     let left = fs::read_to_string(scratch.path().join("runs.csv.part")).unwrap();
     assert!(left.len() > 5_000_000 && left.len() < whole.len() && whole.starts_with(&left));
@@ -254,10 +254,10 @@ fn what_is_wrong_is_named() {
         ),
     ] {
         fs::write(&file, format!("fmu = \"Functions.fmu\"\n{text}")).unwrap();
-        says(&run(&["sweep", shown(&file)], 1), parts);
+        says(&run(&["sweep", shown(&file)], 2), parts);
     }
     fs::write(&file, format!("fmu = \"Functions.fmu\"\nruns = 3\n[vary]\n{uniform}\n")).unwrap();
-    says(&run(&["sweep", shown(&file), "--runs", "2..4"], 1), &["--runs: found 2..4, allowed: within 0..3"]);
+    says(&run(&["sweep", shown(&file), "--runs", "2..4"], 2), &["--runs: found 2..4, allowed: within 0..3"]);
     run(&["sweep", shown(&file), "--runs", "4..2"], 2);
 }
 
@@ -270,7 +270,7 @@ fn a_value_outside_its_limits_is_named_with_its_run() {
     fs::write(&file, text).unwrap();
     // 2, 1, 0, -1 against a minimum of 1e-3.
     says(
-        &run(&["sweep", shown(&file)], 1),
+        &run(&["sweep", shown(&file)], 2),
         &["campaign.toml:4: vary.\"inertia[1]\".steps: run 2: found 0, allowed: a number from 0.001"],
     );
 }

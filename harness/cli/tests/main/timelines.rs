@@ -27,9 +27,9 @@ fn a_timeline_is_packed_and_leaves_the_guid() {
         shown(&fmu)
     );
     let pack = words(&line);
-    assert!(run(&pack, 1).contains("mine.toml"));
+    assert!(run(&pack, 2).contains("mine.toml"));
     fs::write(&timeline, "# torn\nend_s = ").unwrap();
-    let text = run(&pack, 1);
+    let text = run(&pack, 2);
     assert!(text.contains("mine.toml: ") && text.contains("line 2") && !fmu.exists(), "{text}");
     fs::write(&timeline, "end_s = 2.0\n").unwrap();
     run(&pack, 0);
@@ -50,7 +50,7 @@ fn a_model_without_timelines_refuses_one_by_name() {
     let timeline = scratch.path().join("mine.toml");
     fs::write(&timeline, "end_s = 2.0\n").unwrap();
     let pack = ["pack", "--library", shown(&library), "--model", "Empty", "--timeline", shown(&timeline)];
-    let text = run(&pack, 1);
+    let text = run(&pack, 2);
     assert!(text.contains("--timeline: Empty takes none, allowed for: AllTypes"), "{text}");
 }
 
@@ -172,7 +172,7 @@ fn a_plant_takes_a_timeline_without_burns_and_modes() {
     };
     let arguments = pack("MomentumPlant");
     let arguments = arguments.each_ref().map(String::as_str);
-    let printed = run(&arguments, 1);
+    let printed = run(&arguments, 2);
     says(&printed, &["both.toml:7: command[2].scenario: found the scenario burn, allowed: another scenario"]);
     says(
         &printed,
@@ -203,7 +203,7 @@ fn a_plant_takes_a_timeline_without_burns_and_modes() {
             "3 commands from 0 s to the end, 2 positions of the panels from 0 s to the end, 2 events from 10800 s",
         ],
     );
-    let printed = run(&["check", shown(&fmu), "--only", "simulation", "--verbose"], 0);
+    let printed = run(&["check", shown(&fmu), "--probe", "simulation", "--verbose"], 0);
     says(&printed, &["2 events from 10800 s to 14400 s"]);
 
     // A mission names it; the FMU reads its commands.

@@ -437,7 +437,9 @@ impl Drop for Component {
 }
 
 fn answered(code: c_int) -> Answer {
-    Status::from_code(code).ok_or(Outcome::UnknownStatus(code))
+    let status = Status::from_code(code);
+    call_record::log_status(status);
+    status.ok_or(Outcome::UnknownStatus(code))
 }
 
 fn same_length(references: usize, values: usize) -> Result<(), Outcome> {

@@ -20,10 +20,10 @@ impl Verdict {
     /// Word for it in a report.
     pub fn word(self) -> &'static str {
         match self {
-            Self::Good => "ok",
+            Self::Good => "passed",
             Self::Skipped => "skipped",
-            Self::Note => "note",
-            Self::Bad => "WRONG",
+            Self::Note => "warning",
+            Self::Bad => "failed",
         }
     }
 }

@@ -6,10 +6,10 @@ mod pulses;
 
 use std::{collections::HashMap, sync::Arc};
 
-use model_description::{Causality, Description, ScalarVariable, Variability, VariableKind};
+use model_description::{Causality, Description, ScalarVariable, Variability, VariableKind, value};
 
 use self::interpolation::{Circle, Gap, Quaternion, half_turn_rad};
-use crate::{Error, Times, Value, parse_value, select};
+use crate::{Error, Times, Value, select};
 
 /// Values of inputs (and tunable parameters) over time.
 ///
@@ -106,8 +106,8 @@ impl InputTable {
             }
             times_s.push(time_s);
             for ((column, (_, variable)), cell) in values.iter_mut().zip(&variables).zip(&row[1..]) {
-                let value = parse_value(description, variable, cell.as_ref())
-                    .map_err(|error| wrong(format!("line {line}: {error}")))?;
+                let value = value::read_cell(description, variable, cell.as_ref())
+                    .map_err(|misfit| wrong(format!("line {line}: {}: {misfit}", variable.name)))?;
                 column.push(value);
             }
         }

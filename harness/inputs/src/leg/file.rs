@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use model_description::quantity::is_beyond_turn;
 use nalgebra::Vector3;
 use physics::{environment::dates, toml::Place};
 
@@ -16,7 +17,7 @@ use crate::{
 };
 
 const ALLOWED_SPEED: &str = "a number of m/s or one with a unit: \"38.2 km/s\"";
-const ALLOWED_ANGLE: &str = "an angle from -360 to 360 deg: a number of rad or one with a unit, \"30 deg\"";
+const ALLOWED_ANGLE: &str = "an angle from -360 to 360 deg with its unit: \"30 deg\"";
 const MAX_REVOLUTIONS: u32 = 100;
 
 /// A leg file.
@@ -132,10 +133,8 @@ impl Builder<'_> {
                     let allowed = format_args!("an altitude above 0: {ALLOWED_LENGTH}");
                     altitude.report(found, allowed);
                 }
-                let angle_rad = self.required(&angle, toward, ("rad", ALLOWED_ANGLE));
-                if angle_rad.abs() > core::f64::consts::TAU {
-                    angle.report(toward, ALLOWED_ANGLE);
-                }
+                let within = |written: &Written| written.angle_rad().filter(|it| !is_beyond_turn(*it));
+                let angle_rad = self.read(&angle, Some(toward), within, ALLOWED_ANGLE).unwrap_or(0.0);
                 (altitude, FlybyAimpoint::Altitude { altitude_m, angle_rad })
             }
             (None, None, Some(along_t), Some(along_r)) => {

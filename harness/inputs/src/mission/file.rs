@@ -9,9 +9,9 @@ use physics::{
 
 use super::description::{LimitDescription, MissionDescription, PlotDescription};
 use crate::{
+    ending::check_ending,
     kind::FileKind,
     reading::{self, At, Builder, Written},
-    svg_path::is_svg_path,
     values,
 };
 
@@ -232,7 +232,7 @@ impl Builder<'_> {
     fn plot(&mut self, place: &Place<'_>, plot: PlotDescription) -> Plot {
         let key = place.key("file");
         let file = self.written_path(&key, plot.file);
-        if !is_svg_path(&file) {
+        if check_ending(&file, "svg").is_err() {
             let found = format!("{}, no SVG file's name", file.display());
             key.report(found, "one that ends in .svg, or -");
         }

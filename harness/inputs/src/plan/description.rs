@@ -36,7 +36,7 @@ pub struct MomentumPlanDescription {
     pub contact_share: Option<WrittenAs<Number>>,
     /// Activities whose price is reported.
     pub activity: Option<Vec<ActivityDescription>>,
-    /// Where the mission is to pass a planet; for `plan flyby` alone.
+    /// Encounter with a planet that the plan aims at.
     pub flyby: Option<FlybyDescription>,
     /// State from orbit determination that the plan begins with, instead of the mission's.
     pub update: Option<UpdateDescription>,

@@ -2,6 +2,7 @@
 
 pub mod written;
 
+use core::f64::consts::FRAC_PI_2;
 use std::{
     fmt::Display,
     path::{Path, PathBuf},
@@ -23,7 +24,7 @@ pub use written::{Written, WrittenAs};
 pub const ALLOWED_LENGTH: &str = "a number of m or one with a unit: 2e5, \"200 km\", \"0.5 AU\"";
 pub(crate) const ALLOWED_SPAN: &str = "a number of s or one with a unit: 600, \"12 h\", \"3 d\"";
 /// Form of an angle, for messages.
-pub const ALLOWED_ANGLE: &str = "a number of rad or one with a unit: \"2 deg\"";
+pub const ALLOWED_ANGLE: &str = "with its unit: \"2 deg\", \"0.035 rad\"";
 const ALLOWED_MOMENTUM: &str = "a number of N.m.s above 0, or one with that unit: 5.5, \"5.5 N.m.s\"";
 
 /// A value with its key and line.
@@ -146,30 +147,14 @@ impl Builder<'_> {
 
     /// An angle from 0 to 90 deg.
     pub fn angle(&mut self, place: &Place<'_>, written: Option<&Written>) -> Option<f64> {
-        let angle_rad = |written: &Written| {
-            let angle_rad = match written {
-                Written::Number(angle_rad) => Some(*angle_rad),
-                Written::Integer(0) => Some(0.0),
-                Written::Text(text) => values::angle(text).ok(),
-                _ => None,
-            };
-            angle_rad.filter(|it| (0.0..=core::f64::consts::FRAC_PI_2).contains(it))
-        };
-        self.read(place, written, angle_rad, format_args!("an angle from 0 to 90 deg: {ALLOWED_ANGLE}"))
+        let angle_rad = |written: &Written| written.angle_rad().filter(|it| (0.0..=FRAC_PI_2).contains(it));
+        self.read(place, written, angle_rad, format_args!("an angle from 0 to 90 deg {ALLOWED_ANGLE}"))
     }
 
     /// A momentum above 0, in N m s.
     pub fn momentum(&mut self, place: &Place<'_>, written: Option<&Written>) -> Option<f64> {
-        let momentum_n_m_s = |written: &Written| {
-            let number = match written {
-                Written::Text(text) => {
-                    let text = text.trim();
-                    text.strip_suffix("N.m.s").unwrap_or(text).trim_end().parse().ok()
-                }
-                _ => written.number(),
-            };
-            number.filter(|number: &f64| *number > 0.0 && number.is_finite())
-        };
+        let momentum_n_m_s =
+            |written: &Written| written.quantity("N.m.s").filter(|momentum_n_m_s| *momentum_n_m_s > 0.0);
         self.read(place, written, momentum_n_m_s, ALLOWED_MOMENTUM)
     }
 

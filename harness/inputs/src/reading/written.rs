@@ -3,6 +3,7 @@
 use core::{fmt, marker::PhantomData, ops::Deref};
 use std::collections::BTreeMap;
 
+use model_description::quantity;
 use physics::environment::dates;
 use serde::Deserialize;
 
@@ -64,8 +65,13 @@ impl Written {
 
     /// A finite number in the SI unit of this name, or a text with a unit.
     pub fn quantity(&self, unit: &str) -> Option<f64> {
-        let number = if let Self::Text(text) = self { values::quantity(text, unit) } else { self.number() };
+        let number = if let Self::Text(text) = self { quantity::read(text, unit) } else { self.number() };
         number.filter(|number| number.is_finite())
+    }
+
+    /// An angle in rad, which carries its unit.
+    pub(crate) fn angle_rad(&self) -> Option<f64> {
+        quantity::read_with_unit(&self.scalar()?, "rad")
     }
 
     /// A time in s.

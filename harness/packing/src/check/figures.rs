@@ -22,15 +22,11 @@ pub(super) struct Sunlight {
     pub has_shadows: bool,
 }
 
-/// Lines of figures and warnings of a file that is good.
-pub(super) fn report(spacecraft: &Spacecraft, sunlight: Sunlight) -> String {
+/// Lines of figures of a file that is taken, and warnings.
+pub(super) fn report(spacecraft: &Spacecraft, sunlight: Sunlight) -> (String, Vec<String>) {
     let figures = Figures::new(spacecraft);
     let rows = body(&figures, sunlight).into_iter().chain(devices(spacecraft, &figures));
-    let mut text: String = rows.map(|(name, value)| row(name, &value)).collect();
-    for warning in warnings(spacecraft, &figures) {
-        text.push_str(&format!("\nwarning: {warning}"));
-    }
-    text
+    (rows.map(|(name, value)| row(name, &value)).collect(), warnings(spacecraft, &figures))
 }
 
 /// A line of the report.
@@ -238,7 +234,7 @@ mod tests {
             "  wheels               hold 13.06 N m s in any direction (inscribed sphere), 9.238 on all axes at once (guaranteed box), 6.158 by least-norm sharing",
             "  Sun sensors          six along the body axes, 60 deg to each side",
         ];
-        let reported = report(&spacecraft, LIGHT);
+        let (reported, _) = report(&spacecraft, LIGHT);
         assert!(reported.starts_with(&expected.join("\n")), "{reported}");
     }
 
@@ -247,7 +243,7 @@ mod tests {
         let text = include_str!("../../../../fmu-src/resources/messenger-full.toml");
         let spacecraft = Spacecraft::from_toml("messenger-full.toml", text).unwrap();
         let [without, with] =
-            [false, true].map(|has_shadows| report(&spacecraft, Sunlight { has_shadows, ..LIGHT }));
+            [false, true].map(|has_shadows| report(&spacecraft, Sunlight { has_shadows, ..LIGHT }).0);
         for thruster in &spacecraft.thrusters {
             assert_eq!(
                 without
@@ -278,7 +274,7 @@ mod tests {
     fn a_slip_is_warned_of() {
         let text = include_str!("../../../../fmu-src/resources/messenger.toml");
         let text = text.replacen("mass_kg = ", "mass_kg = 1e-5 # ", 1);
-        let reported = report(&Spacecraft::from_toml("messenger.toml", &text).unwrap(), LIGHT);
-        assert!(reported.contains("\nwarning: by its inertia the mass lies "), "{reported}");
+        let (_, warnings) = report(&Spacecraft::from_toml("messenger.toml", &text).unwrap(), LIGHT);
+        assert!(warnings.iter().any(|it| it.starts_with("by its inertia the mass lies ")), "{warnings:?}");
     }
 }

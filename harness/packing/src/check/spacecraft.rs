@@ -2,10 +2,9 @@
 //!
 //! The library itself reads the file, so that what passes here passes in every FMU made from it.
 
-use std::{collections::BTreeSet, path::Path};
+use std::{collections::BTreeSet, error::Error, path::Path};
 
 use drawing::scenes::dish_of;
-use files::outcome::{self, Outcome};
 use fmi::{Described, Value};
 use inputs::variables;
 use model_description::Description;
@@ -16,7 +15,10 @@ use physics::{
 };
 use toml::Table;
 
-use super::figures::{self, Sunlight};
+use super::{
+    Judged,
+    figures::{self, Sunlight},
+};
 use crate::{
     assembly::{
         Parts, Source, assemble, can_read_map, common_keys, description, reference_flight, unused_map,
@@ -31,7 +33,7 @@ pub const DEFAULT_SPACECRAFT: &str = physics::spacecraft::MESSENGER_TOML;
 ///
 /// # Errors
 /// A library that cannot be opened or does not read the file.
-pub fn run(path: &Path, template: Option<&Path>, text: &str) -> Outcome {
+pub fn judged(path: &Path, template: Option<&Path>, text: &str) -> Result<Judged, Box<dyn Error>> {
     let file = &*path.display().to_string();
     let source = Source::open(template, &[])?;
     let binary = source.binary();
@@ -64,7 +66,7 @@ pub fn run(path: &Path, template: Option<&Path>, text: &str) -> Outcome {
     // One that fits better and fails without its start values too has the reason.
     let has_reason = |model: &Described| fittest.is_none_or(|(best, _)| rank(model) >= rank(best));
     if let Some((model, problems)) = of_start.filter(|(model, _)| taken.is_some() || has_reason(model)) {
-        return refused(file, model, problems);
+        return Ok(refused(model, problems.clone()));
     }
     // Each model takes its own kind of file; one that takes this one is enough.
     if let Some((described, description)) = taken {
@@ -73,28 +75,28 @@ pub fn run(path: &Path, template: Option<&Path>, text: &str) -> Outcome {
         let assembled = assemble(&source, &parts)?;
         let logged = match reference_flight(&assembled.entries, &described.reference_inputs) {
             Ok((_, logged)) => logged,
-            Err(reason) => return refused(file, &described, &format!("{file}: {reason}")),
+            Err(reason) => return Ok(refused(&described, format!("{file}: {reason}"))),
         };
         let windows = pointing::windows_of(text);
         let points = pointing::sentence(&description, windows.as_slice())
             .map_or_else(String::new, |it| figures::row("points", &it));
         let windows = pointing::warnings(&description, &[], windows.as_slice());
-        let figures = Spacecraft::from_toml("", text)
+        let (figures, own) = Spacecraft::from_toml("", text)
             .map_or_else(|_| levers(text), |it| figures::report(&it, sunlight(&description)));
         // Said once: the FMU's log warns of these too.
         let are_said = [("[planet_map]", map.is_some()), ("guided.downlinkStart", !windows.is_empty())];
         let is_new = |text: &&String| {
             let is_said = |(begin, is_said): &(&str, bool)| *is_said && text.starts_with(begin);
-            !are_said.iter().any(is_said) && !figures.contains(text.as_str())
+            !are_said.iter().any(is_said) && !own.iter().any(|it| it.contains(text.as_str()))
         };
-        let warnings = map.iter().chain(&windows).chain(logged.iter().filter(is_new));
-        let warnings: String = warnings.map(|warning| format!("\nwarning: {warning}")).collect();
-        return outcome::printed(&format!(
-            "{file}: ok for {}: {}; the FMU will have {} variables{points}{figures}{warnings}",
+        let warnings = own.iter().chain(&map).chain(&windows).chain(logged.iter().filter(is_new));
+        let summary = format!(
+            "{file}: ok for {}: {}; the FMU will have {} variables{points}{figures}",
             described.model,
             contents(text),
             description.variables.len()
-        ));
+        );
+        return Ok(Judged::Taken { summary, warnings: warnings.cloned().collect() });
     }
     let Some(fittest) = fittest else {
         return Err(format!("{}: none of its models reads a file", source.path().display()).into());
@@ -103,7 +105,7 @@ pub fn run(path: &Path, template: Option<&Path>, text: &str) -> Outcome {
         |model: &Described| binary.describe(&model.model, None, Some(&fittest.0.default_setup)).is_ok();
     let chosen = refusals.iter().find(|(model, _)| is_own(model) && takes_the_same(model));
     let (model, problems) = chosen.unwrap_or(fittest);
-    refused(file, model, problems)
+    Ok(refused(model, problems.clone()))
 }
 
 /// How the FMU takes sunlight as it is packed.
@@ -115,9 +117,9 @@ fn sunlight(description: &Description) -> Sunlight {
     }
 }
 
-/// Tells the problems that a model finds in the file.
-fn refused(file: &str, model: &Described, problems: &str) -> Outcome {
-    outcome::refused(file, problems, &format!("a file of {}, which cannot be packed with it", model.model))
+/// Problems that a model finds in the file.
+fn refused(model: &Described, problems: String) -> Judged {
+    Judged::Refused { problems, kind: format!("a file of {}, which cannot be packed with it", model.model) }
 }
 
 /// The file without its start values, if it has any.
@@ -128,16 +130,16 @@ fn without_start_values(text: &str) -> Option<String> {
 }
 
 /// Devices of a spinner, and a warning for each thruster that turns nothing.
-fn levers(text: &str) -> String {
-    let Ok(spinner) = Spinner::parse("", text) else { return String::new() };
+fn levers(text: &str) -> (String, Vec<String>) {
+    let Ok(spinner) = Spinner::parse("", text) else { return Default::default() };
     let devices = figures::of_spinner(&spinner);
     let has_none =
         |thruster: &&Thruster| thruster.torque_body_n_m.norm() <= 1e-6 * thruster.force_body_n.norm();
     let warnings = spinner.thrusters.iter().filter(has_none).map(|thruster| {
         let name = &thruster.name;
-        format!("\nwarning: thruster `{name}` has no lever: it pushes through the centre of mass and turns nothing")
+        format!("thruster `{name}` has no lever: it pushes through the centre of mass and turns nothing")
     });
-    devices + &warnings.collect::<String>()
+    (devices, warnings.collect())
 }
 
 /// How many of each part the file describes.

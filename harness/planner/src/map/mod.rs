@@ -10,9 +10,7 @@ mod spacecraft;
 mod table;
 mod verdict;
 
-use std::process::ExitCode;
-
-use files::outcome::Outcome;
+use files::outcome::{Answer, Outcome};
 use inputs::variables;
 
 use crate::momentum::Mission;
@@ -25,7 +23,7 @@ use spacecraft::MappedSpacecraft;
 pub fn run(arguments: &Map) -> Outcome {
     variables::warn_of_repeated("--set", &arguments.set);
     let outputs = Outputs::open(arguments)?;
-    let mission = arguments.mission.as_deref().map(Mission::read).transpose()?;
+    let mission = arguments.recording.as_deref().map(Mission::read).transpose()?;
     let spacecraft = MappedSpacecraft::open(arguments)?;
     let found = Found::new(&spacecraft, arguments.step, mission)?;
     let written = outputs.write(&spacecraft, &found)?;
@@ -40,5 +38,5 @@ pub fn run(arguments: &Map) -> Outcome {
             terminal::note(&format!("wrote {file}"));
         }
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(Answer::Yes)
 }

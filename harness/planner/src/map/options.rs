@@ -25,12 +25,10 @@ pub struct Map {
     pub source: SourceKind,
     /// Start values, written `name=value`.
     pub set: Vec<String>,
-    /// Mission, or its recording.
-    pub mission: Option<PathBuf>,
-    /// File or folder to write.
-    pub output: Option<PathBuf>,
-    /// Table to write.
-    pub csv: Option<PathBuf>,
+    /// Recording of a mission.
+    pub recording: Option<PathBuf>,
+    /// Table and picture to write, by their endings.
+    pub output: Vec<PathBuf>,
     /// Table of the lines of zero torque to write.
     pub lines: Option<PathBuf>,
     /// Whether no picture is written.

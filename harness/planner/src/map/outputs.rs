@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use files::Destination;
 use fmi::csv::Real;
-use inputs::svg_path::check_svg_path;
+use inputs::ending::{OPTION, by_ending};
 
 use super::{found::Found, options::Map, picture, spacecraft::MappedSpacecraft};
 use crate::torque_map::{Angles, direction};
 
 /// Options that name the files.
-const OPTIONS: [&str; 3] = ["--output", "--csv", "--lines"];
+const OPTIONS: [&str; 3] = [OPTION, OPTION, "--lines"];
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Destinations of picture, torque, lines.
@@ -26,13 +26,12 @@ impl Outputs {
     /// Looks at every file before anything is computed.
     pub(super) fn open(arguments: &Map) -> Result<Self, String> {
         let inputs: Vec<&Path> =
-            [arguments.spacecraft.as_path()].into_iter().chain(arguments.mission.as_deref()).collect();
-        let picture = (!arguments.no_picture).then(|| picture_path(arguments));
-        if let Some(path) = &picture {
-            check_svg_path(path, OPTIONS[0])?;
-        }
+            [arguments.spacecraft.as_path()].into_iter().chain(arguments.recording.as_deref()).collect();
+        let [table, picture] = by_ending(&arguments.output, ["csv", "svg"])?;
+        let is_drawn = arguments.output.is_empty() && !arguments.no_picture;
+        let picture = picture.map(Path::to_owned).or_else(|| is_drawn.then(|| usual_picture(arguments)));
         let mut opened = [None, None, None];
-        let paths = [picture, arguments.csv.clone(), arguments.lines.clone()];
+        let paths = [picture, table.map(Path::to_owned), arguments.lines.clone()];
         for (k, path) in paths.into_iter().enumerate() {
             let Some(path) = path else { continue };
             opened[k] = Some((Destination::open(&path, OPTIONS[k], &inputs)?, path));
@@ -64,11 +63,9 @@ impl Outputs {
     }
 }
 
-fn picture_path(arguments: &Map) -> PathBuf {
-    arguments.output.clone().unwrap_or_else(|| {
-        let stem = arguments.spacecraft.file_stem().unwrap_or_default().to_string_lossy();
-        PathBuf::from(format!("{stem}-map.svg"))
-    })
+fn usual_picture(arguments: &Map) -> PathBuf {
+    let stem = arguments.spacecraft.file_stem().unwrap_or_default().to_string_lossy();
+    PathBuf::from(format!("{stem}-map.svg"))
 }
 
 /// A row for each direction; 180 deg of azimuth is -180 deg.

@@ -16,6 +16,7 @@ use physics::{
     spacecraft::{
         Articulation, DownlinkWindows, Panel, PanelControl, Spacecraft, TimeAfterPeriapsis, offset_for_suns,
     },
+    spin::spinner::Spinner,
 };
 
 use super::options::Map;
@@ -114,6 +115,10 @@ impl MappedSpacecraft {
     /// Reads the file and makes an FMU of it in a temporary folder.
     pub(super) fn open(arguments: &Map) -> Result<Self, Failure> {
         let (file, mut text, source) = given(arguments)?;
+        if Spacecraft::from_toml(&file, &text).is_err() && Spinner::parse(&file, &text).is_ok() {
+            let allowed = "a three-axis spacecraft: the torque on a spinner is that of `heliotorque run`";
+            return Err(format!("{file}: found a spinner, allowed: {allowed}").into());
+        }
         let describe = |model: &str, text: Option<&str>| -> Result<Description, Failure> {
             let file = text.map(|_| file.as_str());
             Ok(description(&source.binary().describe(model, file, text)?)?)

@@ -48,7 +48,7 @@ struct Table {
 impl Table {
     fn read(path: &Path) -> Result<Self, String> {
         let file = path.display().to_string();
-        let failed = |error: &dyn std::fmt::Display| format!("{file}: {error}: see --mission");
+        let failed = |error: &dyn std::fmt::Display| format!("{file}: {error}: see --recording");
         let text = files::open_at_most(path, files::MAX_TABLE_BYTES).map_err(|error| failed(&error))?;
         let mut reader = csv::Reader::from_reader(text);
         let names: Vec<String> = reader
@@ -74,7 +74,7 @@ impl Table {
                 let value = cell.trim().parse::<f64>().ok().filter(|value| value.is_finite());
                 values[column].push(value.ok_or_else(|| {
                     format!(
-                        "{file}:{}: {}: found {cell:?}, allowed: a finite number: see --mission",
+                        "{file}:{}: {}: found {cell:?}, allowed: a finite number: see --recording",
                         row + 2,
                         names[column]
                     )
@@ -94,7 +94,7 @@ impl Table {
     }
 
     fn misses(&self, what: &str) -> String {
-        format!("{}: found no {what}: see --mission", self.file)
+        format!("{}: found no {what}: see --recording", self.file)
     }
 }
 

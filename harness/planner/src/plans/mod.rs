@@ -5,6 +5,7 @@ mod flights;
 pub mod leg;
 mod mission_text;
 pub mod momentum;
+pub mod options;
 mod picture;
 pub mod refit;
 

@@ -3,6 +3,7 @@
 
 mod answer;
 mod flights;
+mod json;
 mod momentum;
 mod needs;
 pub mod options;
@@ -11,11 +12,11 @@ mod sized;
 mod table;
 mod unloading;
 
-use std::{path::Path, process::ExitCode};
+use std::path::Path;
 
 use files::{
     Destination, OutputFolder,
-    outcome::{self, Outcome},
+    outcome::{self, Answer, Outcome},
 };
 use isolation::interrupt;
 use packing::instance::vector;
@@ -36,11 +37,13 @@ pub fn run(arguments: &Size) -> Outcome {
     let sized = SizedSpacecraft::open(arguments)?;
     let found = found(&sized, arguments)?;
     if interrupt::raised() {
-        return Ok(ExitCode::from(interrupt::INTERRUPTED));
+        return Ok(Answer::Interrupted);
     }
     let svg = picture::svg(&sized, &found.sweep)?;
     let csv = table::csv(&sized, &found.sweep);
-    if !arguments.quiet {
+    if arguments.json {
+        terminal::print(&serde_json::to_string_pretty(&json::object(&sized, &found))?)?;
+    } else if !arguments.quiet {
         let parts =
             [answer::text(&sized, &found), answer::assumed(&sized, &found), table::text(&sized, &found)];
         terminal::print(&parts.join("\n\n"))?;
@@ -48,7 +51,7 @@ pub fn run(arguments: &Size) -> Outcome {
     let picture = svg.map(|svg| (picture, svg));
     let written: Vec<_> = picture.into_iter().chain([(table_file, csv)]).collect();
     outcome::write_all(written, arguments.quiet)?;
-    Ok(ExitCode::SUCCESS)
+    Ok(Answer::Yes)
 }
 
 /// Simulates the flights and returns their results.

@@ -29,6 +29,8 @@ pub struct Size {
     pub template: Option<PathBuf>,
     /// Start values, written `name=value`.
     pub set: Vec<String>,
+    /// Whether one JSON object is printed.
+    pub json: bool,
     /// Whether nothing is printed.
     pub quiet: bool,
 }

@@ -6,7 +6,7 @@ use physics::spin::spinner::Spinner;
 use super::tests::{ace, options};
 use super::{ACE, PlannedBurn, plan};
 
-const TURN: &str = "--from 240,-20 --sun 237,-12 --target 246,-19";
+const TURN: &str = "--from 240deg,-20deg --sun 237deg,-12deg --target 246deg,-19deg";
 
 fn planned(arguments: &str) -> PlannedBurn {
     plan(&options(arguments)).unwrap().burn.unwrap()
@@ -19,11 +19,11 @@ fn text(arguments: &str) -> String {
 #[test]
 fn what_is_simulated_is_what_was_planned() {
     for arguments in [
-        "--angle 2",
+        "--angle 2deg",
         TURN,
-        "--angle 5 --timing phase --thruster IA",
-        "--angle 3 --timing clock",
-        "--angle 2 --thruster axial&couple&I-IV",
+        "--angle 5deg --timing phase --thruster IA",
+        "--angle 3deg --timing clock",
+        "--angle 2deg --thruster axial&couple&I-IV",
     ] {
         let mut options = options(arguments);
         options.thruster = options.thruster.map(|name| name.replace('&', " "));
@@ -61,7 +61,7 @@ fn what_is_simulated_is_what_was_planned() {
 /// Sun crossing and pulse of a great circle: on a clock of Sun pulses the delay is the phase at the assumed rate.
 #[test]
 fn the_phase_is_the_turn_since_the_sun_crossing() {
-    for arguments in ["--angle 2 --timing sun", "--angle 2 --timing phase", TURN] {
+    for arguments in ["--angle 2deg --timing sun", "--angle 2deg --timing phase", TURN] {
         let burn = planned(arguments);
         for pulse in burn.flight.pulses.iter().skip(1) {
             let since_s = pulse.after_sun_s.unwrap() + 0.5 * pulse.on_time_s;
@@ -76,7 +76,7 @@ fn the_phase_is_the_turn_since_the_sun_crossing() {
 
 #[test]
 fn csv_and_json_agree() {
-    for arguments in ["--angle 2", &format!("{TURN} --earth 55,20")] {
+    for arguments in ["--angle 2deg", &format!("{TURN} --earth 55deg,20deg")] {
         let burn = planned(arguments);
         let json: serde_json::Value = serde_json::from_slice(&burn.to_json().unwrap()).unwrap();
         let csv = burn.to_csv().unwrap();
@@ -119,28 +119,31 @@ fn limits_are_named_and_checked() {
         let all = verdicts(arguments);
         all.iter().find(|(name, _)| *name == limit).unwrap_or_else(|| panic!("{limit}: {all:?}")).1
     };
-    assert_eq!(kept("--angle 2", "Earth angle"), None);
-    assert_eq!(kept("--angle 2", "Sun angle"), Some(true));
+    assert_eq!(kept("--angle 2deg", "Earth angle"), None);
+    assert_eq!(kept("--angle 2deg", "Sun angle"), Some(true));
     // 17 deg from the Sun, 5 away from it.
-    let away = "--from 0,17 --sun 0,0 --direction 180 --angle 5 --earth 180,0";
+    let away = "--from 0deg,17deg --sun 0deg,0deg --direction 180deg --angle 5deg --earth 180deg,0deg";
     assert_eq!(kept(away, "Sun angle"), Some(false));
     assert_eq!(kept(away, "Earth angle"), Some(false));
     assert_eq!(
-        kept("--from 0,2 --sun 0,10 --earth 180,0 --angle 1 --direction 180", "Earth angle"),
+        kept(
+            "--from 0deg,2deg --sun 0deg,10deg --earth 180deg,0deg --angle 1deg --direction 180deg",
+            "Earth angle"
+        ),
         Some(true)
     );
-    assert_eq!(kept("--angle 2 --rate-rpm 5.2", "spin rate"), Some(false));
+    assert_eq!(kept("--angle 2deg --rate 5.2rpm", "spin rate"), Some(false));
     // A peak of 0.02 deg is a Sun-crossing period that varies by 2 x 0.02 deg / (30 deg/s tan 10 deg) = 7.56 ms; the file allows 7.
     // Within 8 min no train stays below it.
-    assert_eq!(kept("--angle 2 --max-duration 8", "spin period varies"), Some(false));
-    assert_eq!(kept("--angle 2 --max-nutation 0.02", "spin period varies"), Some(true));
+    assert_eq!(kept("--angle 2deg --max-duration 8min", "spin period varies"), Some(false));
+    assert_eq!(kept("--angle 2deg --max-nutation 0.02deg", "spin period varies"), Some(true));
     let beyond = planned(away);
     let sun = beyond.checks.iter().find(|check| check.limit == "Sun angle").unwrap();
     assert!((sun.found - 22.0).abs() < 0.3 && sun.verdict().starts_with("BROKEN: from "), "{sun:?}");
     // Only what was given is checked, and called kept.
-    let names: Vec<&str> = verdicts("--angle 2").iter().map(|(name, _)| *name).collect();
+    let names: Vec<&str> = verdicts("--angle 2deg").iter().map(|(name, _)| *name).collect();
     assert_eq!(names, ["Sun angle", "Earth angle", "spin rate", "spin period varies", "propellant"]);
-    let given = verdicts("--angle 2 --max-nutation 0.2 --max-final 0.1 --max-duration 30");
+    let given = verdicts("--angle 2deg --max-nutation 0.2deg --max-final 0.1deg --max-duration 30min");
     let flags: Vec<_> = given[4..].iter().map(|(name, kept)| (*name, kept.unwrap())).collect();
     assert_eq!(
         flags,
@@ -151,8 +154,13 @@ fn limits_are_named_and_checked() {
         let line = text.lines().find(|line| line.starts_with("limits: ")).unwrap();
         line.strip_prefix("limits: ").unwrap().split(", ").map(str::to_owned).collect::<Vec<_>>()
     };
-    assert_eq!(checked_in_table("--angle 2"), ["Sun angle", "spin rate", "spin period varies", "propellant"]);
-    let with_earth = checked_in_table("--from 0,2 --sun 0,10 --earth 180,0 --angle 1 --max-nutation 0.02");
+    assert_eq!(
+        checked_in_table("--angle 2deg"),
+        ["Sun angle", "spin rate", "spin period varies", "propellant"]
+    );
+    let with_earth = checked_in_table(
+        "--from 0deg,2deg --sun 0deg,10deg --earth 180deg,0deg --angle 1deg --max-nutation 0.02deg",
+    );
     assert!(with_earth.contains(&"Earth angle".to_owned()), "{with_earth:?}");
     assert!(with_earth.contains(&"worst nutation".to_owned()), "{with_earth:?}");
 }
@@ -160,7 +168,7 @@ fn limits_are_named_and_checked() {
 /// At 10 deg from the Sun and 5 rpm the period varies by 2 x nutation / (30 deg/s tan 10 deg), whatever the train.
 #[test]
 fn the_plan_is_the_best_that_keeps_the_files_limits() {
-    let task = super::tests::task("--angle 2");
+    let task = super::tests::task("--angle 2deg");
     let rows = super::trade(&task).unwrap();
     let varies_s =
         |row: &super::TrainForecast| 2.0 * row.peak_rad.to_degrees() / (30.0 * 10_f64.to_radians().tan());
@@ -174,7 +182,7 @@ fn the_plan_is_the_best_that_keeps_the_files_limits() {
         assert!(rows[..place].iter().all(|row| varies_s(row) > 0.9 * limit_s), "{limit_s}");
         assert!(place > 0, "{limit_s}");
     }
-    let kept = plan(&options("--angle 2")).unwrap();
+    let kept = plan(&options("--angle 2deg")).unwrap();
     assert!(kept.broken.is_empty() && kept.text.contains("Least final nutation within the limits: "));
     assert!(!kept.text.contains("No train keeps"));
 }
@@ -182,10 +190,13 @@ fn the_plan_is_the_best_that_keeps_the_files_limits() {
 #[test]
 fn a_plan_that_breaks_a_limit_says_so() {
     for (arguments, broken) in [
-        ("--angle 2 --max-duration 8", vec!["spin period varies"]),
-        ("--angle 2 --rate-rpm 5.2", vec!["spin rate"]),
+        ("--angle 2deg --max-duration 8min", vec!["spin period varies"]),
+        ("--angle 2deg --rate 5.2rpm", vec!["spin rate"]),
         // 17 deg from the Sun, 5 away from it; the train is still chosen by what can be kept.
-        ("--from 0,17 --sun 0,0 --direction 180 --angle 5 --earth 180,0", vec!["Sun angle", "Earth angle"]),
+        (
+            "--from 0deg,17deg --sun 0deg,0deg --direction 180deg --angle 5deg --earth 180deg,0deg",
+            vec!["Sun angle", "Earth angle"],
+        ),
     ] {
         let answer = plan(&options(arguments)).unwrap();
         assert_eq!(answer.broken, broken, "{arguments}");
@@ -205,11 +216,11 @@ fn rows_are_counted_and_fit_a_terminal() {
         text.lines().filter(|line| shapes.iter().any(|shape| line.starts_with(shape))).count()
     };
     for count in [0, 1, 2, 5, 12] {
-        assert_eq!(rows(&format!("--angle 2 --rows {count}")), count);
+        assert_eq!(rows(&format!("--angle 2deg --rows {count}")), count);
     }
     let text =
-        text(&format!("{TURN} --max-nutation 0.2 --rows 15 --timing clock --rate-uncertainty-rpm 0.01"));
-    let campaign = plan(&options("--campaign 20")).unwrap().text;
+        text(&format!("{TURN} --max-nutation 0.2deg --rows 15 --timing clock --rate-uncertainty 0.01rpm"));
+    let campaign = plan(&options("--campaign 20d")).unwrap().text;
     for text in [text, campaign] {
         let tables: Vec<&str> = text.lines().skip_while(|line| !line.starts_with('─')).collect();
         let tables = tables.split(|line| line.starts_with('─')).skip(1).step_by(2).flatten();
@@ -222,10 +233,10 @@ fn rows_are_counted_and_fit_a_terminal() {
 fn the_thruster_is_the_files_own() {
     let renamed = ACE.replace("\"IIIR\"", "\"lower +X\"");
     let spinner = Spinner::parse("my.toml", &renamed).unwrap();
-    assert_eq!(super::Task::new(&options("--angle 2"), &spinner).unwrap().thruster, "lower +X");
+    assert_eq!(super::Task::new(&options("--angle 2deg"), &spinner).unwrap().thruster, "lower +X");
     let slower = ACE.replace("spin_rate_rpm = 5.0", "spin_rate_rpm = 3.0");
     let spinner = Spinner::parse("my.toml", &slower).unwrap();
-    let rate = super::Task::new(&options("--angle 2"), &spinner).unwrap().case.spin.rate_rad_s;
+    let rate = super::Task::new(&options("--angle 2deg"), &spinner).unwrap().case.spin.rate_rad_s;
     assert!((rate - 0.1 * core::f64::consts::PI).abs() < 1e-15);
-    assert_eq!(super::Task::new(&options("--angle 2"), &ace()).unwrap().thruster, "IIIR");
+    assert_eq!(super::Task::new(&options("--angle 2deg"), &ace()).unwrap().thruster, "IIIR");
 }

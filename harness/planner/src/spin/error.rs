@@ -21,7 +21,10 @@ pub enum PlanError {
         /// Fault, and what is allowed.
         what: String,
     },
-    /// A spacecraft, thruster or limits that no plan is for.
+    /// Limits that no plan keeps.
+    #[error("{0}")]
+    Infeasible(String),
+    /// A spacecraft or thruster that no plan is for.
     #[error("{0}")]
     Refused(String),
     /// The plan could not be simulated on the plant.

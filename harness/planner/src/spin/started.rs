@@ -54,7 +54,7 @@ pub(super) fn rate_rad_s(spinner: &Spinner) -> Result<Option<f64>, PlanError> {
     match rate_rad_s.filter(|rate_rad_s| rate_rad_s.is_finite() && *rate_rad_s > 0.0) {
         Some(rate_rad_s) => Ok(Some(rate_rad_s)),
         None => Err(PlanError::Direction {
-            flag: "--rate-rpm",
+            flag: "--rate",
             what: format!(
                 "{} in line {} is no spin rate; allowed: a positive number in rad/s, or with its unit (rpm, deg/s), or this \
                  flag",

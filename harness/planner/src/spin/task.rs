@@ -105,7 +105,7 @@ impl Task {
             sun_deg.to_radians()
         };
         let rate_rad_s = match options.rate_rpm {
-            Some(rate_rpm) => positive("--rate-rpm", rate_rpm)? * RPM_RAD_S,
+            Some(rate_rpm) => positive("--rate", rate_rpm)? * RPM_RAD_S,
             None => started::rate_rad_s(spinner)?.unwrap_or_else(|| spinner.limits.spin_rate_rad_s()),
         };
         let propellant_kg = options.propellant_kg.unwrap_or(spinner.mass_properties.initial_propellant_kg);
@@ -129,12 +129,12 @@ impl Task {
                  damper lets it grow, so that no train ends quietly, and no body has 2 or more"
             )));
         }
-        let rate_uncertainty_rpm = not_negative("--rate-uncertainty-rpm", options.rate_uncertainty_rpm)?;
+        let rate_uncertainty_rpm = not_negative("--rate-uncertainty", options.rate_uncertainty_rpm)?;
         check(
-            "--rate-uncertainty-rpm",
+            "--rate-uncertainty",
             rate_uncertainty_rpm,
             rate_uncertainty_rpm * RPM_RAD_S < rate_rad_s,
-            "less than the spin rate (--rate-rpm)",
+            "less than the spin rate (--rate)",
         )?;
         let mass = &spinner.mass_properties;
         let (mut moments_kg_m2, mut products_kg_m2) =
@@ -208,7 +208,7 @@ impl Task {
             limits: TaskLimits {
                 peak_rad: limit("--max-nutation", options.max_nutation_deg)?.to_radians(),
                 final_rad: limit("--max-final", options.max_final_deg)?.to_radians(),
-                duration_s: limit("--max-duration", options.max_duration_min)? * 60.0,
+                duration_s: limit("--max-duration", options.max_duration_s)?,
             },
         })
     }

@@ -43,7 +43,7 @@ pub struct Answer {
 pub fn plan(options: &Options) -> Result<Answer, PlanError> {
     let spinner = spacecraft(options)?;
     let task = Task::new(options, &spinner)?;
-    match options.campaign {
+    match options.campaign_s.map(|it| it / 86_400.0) {
         Some(days) => Ok(Answer { text: months(&spinner, &task, days)?, burn: None, broken: Vec::new() }),
         None => one_manoeuvre(options, &spinner, task),
     }
@@ -199,18 +199,20 @@ fn simulated_again<'a>(
     let first =
         || rows.first().copied().ok_or_else(|| PlanError::Flight("no train was simulated".to_owned()));
     let not_simulated = |why: String| Ok((first()?, vec![format!("Not re-simulated: {why}")]));
-    let named = options.fmu.as_deref();
+    let named = options.template.as_deref();
     let path = match named {
         Some(path) => path,
         None if options.spacecraft.is_some() => {
             return not_simulated(format!(
-                "{SHIPPED_FMU} may be of another spacecraft; give this one's FMU by --fmu"
+                "{SHIPPED_FMU} may be of another spacecraft; give this one's FMU by --template"
             ));
         }
         None => Path::new(SHIPPED_FMU),
     };
     if named.is_none() && !path.exists() {
-        return not_simulated(format!("no {SHIPPED_FMU} (cargo xtask dist packs it, --fmu names another)"));
+        return not_simulated(format!(
+            "no {SHIPPED_FMU} (cargo xtask dist packs it, --template names another)"
+        ));
     }
     let fmu = match Fmu::open(path) {
         Ok(fmu) => fmu,
@@ -227,7 +229,7 @@ fn simulated_again<'a>(
         }
         lines.push(format!("Passed over, as simulated: {}: {}", row.label(), broken.join(", ")));
     }
-    Err(PlanError::Refused(format!(
+    Err(PlanError::Infeasible(format!(
         "no plan keeps its limits when it is simulated through the FMU: {}",
         lines.join("\n  ")
     )))

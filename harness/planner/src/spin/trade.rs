@@ -90,7 +90,7 @@ pub fn trade(task: &Task) -> Result<Vec<TrainForecast>, PlanError> {
     }
     if rows.is_empty() {
         let spin = &task.case.spin;
-        return Err(PlanError::Refused(format!(
+        return Err(PlanError::Infeasible(format!(
             "--angle is {} deg; no train comes within {} % of it (--angle-tolerance): the shortest pulse of {}, {} ms, moves \
              {:.6} deg",
             task.angle_rad.to_degrees(),
@@ -120,7 +120,7 @@ pub fn frontier(rows: &[TrainForecast]) -> Vec<&TrainForecast> {
 pub fn best(rows: &[TrainForecast]) -> Result<&TrainForecast, PlanError> {
     let least = |value: fn(&TrainForecast) -> f64| rows.iter().map(value).fold(f64::INFINITY, f64::min);
     rows.iter().find(|row| row.fits).ok_or_else(|| {
-        PlanError::Refused(format!(
+        PlanError::Infeasible(format!(
             "no plan keeps the limits: over all plans the least peak nutation is {:.5} deg, the least final nutation {:.6} deg, \
              the shortest time {:.2} min, the least propellant {:.6} kg; widen --max-nutation, --max-final or --max-duration, \
              or see --propellant",
@@ -143,13 +143,13 @@ pub fn uniform_plan(task: &Task) -> Result<TrainForecast, PlanError> {
         .ok_or_else(|| {
             let why = if pulse_s > half_turn_s {
                 format!(
-                    "its shortest pulse is {pulse_s} s, longer than half a turn ({half_turn_s:.3e} s at --rate-rpm): beyond \
+                    "its shortest pulse is {pulse_s} s, longer than half a turn ({half_turn_s:.3e} s at --rate): beyond \
                      that a pulse works against itself"
                 )
             } else {
                 format!("no train of pulses of {pulse_s} s turns by {} deg", task.angle_rad.to_degrees())
             };
-            PlanError::Refused(format!("--thruster {} has no train: {why}", task.thruster))
+            PlanError::Infeasible(format!("--thruster {} has no train: {why}", task.thruster))
         })
 }
 

@@ -101,9 +101,6 @@ impl TurnGeometry {
             }
             return Ok(Self { axis_inertial, target_inertial, sun_inertial, earth_inertial, origin });
         }
-        if !options.direction_deg.is_finite() {
-            return Err(refuse("--direction", "allowed is an angle in deg"));
-        }
         let direction_rad = options.direction_deg.to_radians();
         let sun_inertial = match given_sun {
             Some(sun) => sun,

@@ -38,7 +38,8 @@ fn the_sun_stands_where_the_almanac_has_it() {
         ("2026-09-23T00:05:00 UTC", 180.0),
         ("2026-12-21T20:50:00 UTC", 270.0),
     ] {
-        let geometry = TurnGeometry::new(&dated(date, "--from 0,90 --target 0,80"), &ace()).unwrap();
+        let geometry =
+            TurnGeometry::new(&dated(date, "--from 0deg,90deg --target 0deg,80deg"), &ace()).unwrap();
         let longitude_rad = (longitude_deg - precession_deg).to_radians();
         let (sine, cosine) = 23.4393_f64.to_radians().sin_cos();
         let almanac =
@@ -58,7 +59,7 @@ fn the_sun_stands_where_the_almanac_has_it() {
 
 #[test]
 fn an_angle_and_a_direction_are_a_target() {
-    let default = geometry("--angle 2");
+    let default = geometry("--angle 2deg");
     assert_eq!(default.axis_inertial, Vector3::z());
     assert!(
         (default.sun_inertial - Vector3::new(0.0, 10_f64.to_radians().sin(), 10_f64.to_radians().cos()))
@@ -72,7 +73,9 @@ fn an_angle_and_a_direction_are_a_target() {
     );
     // By the spherical law of cosines: toward, away, across.
     for (direction_deg, sun_deg) in [(0.0, 7.0), (180.0, 13.0), (60.0, f64::NAN)] {
-        let turned = geometry(&format!("--angle 3 --from 30,40 --sun 30,50 --direction {direction_deg}"));
+        let turned = geometry(&format!(
+            "--angle 3deg --from 30deg,40deg --sun 30deg,50deg --direction {direction_deg}deg"
+        ));
         let direction = f64::to_radians(direction_deg);
         let (angle, sun) = (3_f64.to_radians(), 10_f64.to_radians());
         let expected = (angle.cos() * sun.cos() + angle.sin() * sun.sin() * direction.cos()).acos();
@@ -89,16 +92,17 @@ fn an_angle_and_a_direction_are_a_target() {
 #[test]
 fn the_rhumb_line_is_the_navigators() {
     // Meridian and parallel of the Sun, and in between a course that is sailed step by step.
-    let straight = geometry("--from 0,60 --sun 0,90 --target 0,70").rhumb_line().unwrap();
+    let straight = geometry("--from 0deg,60deg --sun 0deg,90deg --target 0deg,70deg").rhumb_line().unwrap();
     assert!(
         (straight.length_rad - 10_f64.to_radians()).abs() < 1e-12 && straight.heading_rad.0.abs() < 1e-12
     );
-    let parallel = geometry("--from 0,60 --sun 0,90 --target 50,60").rhumb_line().unwrap();
+    let parallel = geometry("--from 0deg,60deg --sun 0deg,90deg --target 50deg,60deg").rhumb_line().unwrap();
     assert!((parallel.length_rad - 0.5 * 50_f64.to_radians()).abs() < 1e-12, "{parallel:?}");
     assert!((parallel.heading_rad.0.abs() - FRAC_PI_2).abs() < 1e-9);
-    for arguments in
-        ["--from 10,-20 --sun 30,-28 --target 25,5", "--from 240,-20 --sun 237.6,-20.1 --target 252,-15"]
-    {
+    for arguments in [
+        "--from 10deg,-20deg --sun 30deg,-28deg --target 25deg,5deg",
+        "--from 240deg,-20deg --sun 237.6deg,-20.1deg --target 252deg,-15deg",
+    ] {
         let geometry = geometry(arguments);
         let (rhumb, great) = (geometry.rhumb_line().unwrap(), geometry.great_circle());
         assert!(rhumb.length_rad > great.length_rad);
@@ -120,17 +124,17 @@ fn the_rhumb_line_is_the_navigators() {
 #[test]
 fn the_attitude_has_the_axis_where_the_turn_begins() {
     for (from, body) in [
-        ("240,-20", Vector3::z()),
-        ("0,-90", Vector3::z()),
-        ("0,90", Vector3::z()),
-        ("70,10", Vector3::new(0.1, -0.2, 0.9).normalize()),
+        ("240deg,-20deg", Vector3::z()),
+        ("0deg,-90deg", Vector3::z()),
+        ("0deg,90deg", Vector3::z()),
+        ("70deg,10deg", Vector3::new(0.1, -0.2, 0.9).normalize()),
     ] {
-        let geometry = geometry(&format!("--from {from} --sun 100,0"));
+        let geometry = geometry(&format!("--from {from} --sun 100deg,0deg"));
         let found = geometry.attitude(&body).inertial_from_body(&body);
         assert!((found - geometry.axis_inertial).norm() < 1e-12, "{from}: {found}");
     }
     let (right_ascension, declination) =
-        right_ascension_declination_deg(&geometry("--from=-120,-20 --sun 0,0").axis_inertial);
+        right_ascension_declination_deg(&geometry("--from=-120deg,-20deg --sun 0deg,0deg").axis_inertial);
     assert!((right_ascension - 240.0).abs() < 1e-9 && (declination + 20.0).abs() < 1e-9);
 }
 
@@ -141,16 +145,17 @@ fn the_files_start_values_are_where_a_plan_begins() {
         format!("{ACE}\n[start]\n\"start.q\" = [0.0, {half}, 0.0, {half}]\n\"spin.initialRate\" = {value}\n")
     };
     let spinner = |value: &str| Spinner::parse("my.toml", &text(value)).unwrap();
-    let geometry = TurnGeometry::new(&options("--target 2,0 --sun 10,5"), &spinner("0.6")).unwrap();
+    let geometry =
+        TurnGeometry::new(&options("--target 2deg,0deg --sun 10deg,5deg"), &spinner("0.6")).unwrap();
     assert!((geometry.axis_inertial - Vector3::x()).norm() < 1e-12, "{}", geometry.axis_inertial);
     let rate = |value: &str, arguments: &str| {
         super::Task::new(&options(arguments), &spinner(value)).map(|task| task.case.spin.rate_rad_s)
     };
-    let sun = "--sun 10,5";
+    let sun = "--sun 10deg,5deg";
     assert_eq!(rate("0.6", sun), Ok(0.6));
     assert!((rate("\"6 rpm\"", sun).unwrap() - 0.2 * PI).abs() < 1e-15);
     assert!((rate("\"36 deg/s\"", sun).unwrap() - 0.2 * PI).abs() < 1e-15);
-    assert!((rate("0.6", "--sun 10,5 --rate-rpm 3").unwrap() - 0.1 * PI).abs() < 1e-15);
+    assert!((rate("0.6", "--sun 10deg,5deg --rate 3rpm").unwrap() - 0.1 * PI).abs() < 1e-15);
     let refused = rate("\"6 turns\"", sun).unwrap_err().to_string();
     assert!(refused.contains("spin.initialRate") && refused.contains("rpm"), "{refused}");
 }
@@ -158,19 +163,18 @@ fn the_files_start_values_are_where_a_plan_begins() {
 #[test]
 fn what_is_left_open_is_refused() {
     for (arguments, parts) in [
-        ("--target 10,20", ["--from", "where the spin axis stands"]),
-        ("--target 10,20 --from 10,10", ["--target", "--date or --sun"]),
-        ("--target 10,20 --from 10,20 --sun 0,0", ["--target", "0.0000 deg"]),
-        ("--target 190,-20 --from 10,20 --sun 0,0", ["--target", "above 0 to 175 deg"]),
-        ("--sun 10,20", ["--from", "start.q"]),
-        ("--from 10,20 --sun 10,20", ["--direction", "--target"]),
-        ("--direction nan", ["--direction", "an angle"]),
+        ("--target 10deg,20deg", ["--from", "where the spin axis stands"]),
+        ("--target 10deg,20deg --from 10deg,10deg", ["--target", "--date or --sun"]),
+        ("--target 10deg,20deg --from 10deg,20deg --sun 0deg,0deg", ["--target", "0.0000 deg"]),
+        ("--target 190deg,-20deg --from 10deg,20deg --sun 0deg,0deg", ["--target", "above 0 to 175 deg"]),
+        ("--sun 10deg,20deg", ["--from", "start.q"]),
+        ("--from 10deg,20deg --sun 10deg,20deg", ["--direction", "--target"]),
     ] {
         let text = refused(arguments);
         assert!(parts.iter().all(|part| text.contains(part)), "{arguments}: {text}");
     }
     assert!(matches!(
-        TurnGeometry::new(&options("--target 1,2 --from 3,4"), &ace()),
+        TurnGeometry::new(&options("--target 1deg,2deg --from 3deg,4deg"), &ace()),
         Err(PlanError::Direction { .. })
     ));
     let parse = |words: &[&str]| {
@@ -184,14 +188,16 @@ fn what_is_left_open_is_refused() {
             .map_or_else(String::new, |error| error.to_string())
     };
     for (words, part) in [
-        (["--target", "10"].as_slice(), "right ascension"),
-        (&["--from", "400,0"], "right ascension"),
-        (&["--sun", "0,91"], "declination (-90 to 90)"),
+        (["--target", "10deg"].as_slice(), "right ascension"),
+        (&["--target", "10,20"], "each with its unit"),
+        (&["--rate", "5"], "5rpm"),
+        (&["--from", "400deg,0deg"], "right ascension"),
+        (&["--sun", "0deg,91deg"], "declination (-90 to 90 deg)"),
         (&["--date", "yesterday"], "UTC"),
-        (&["--target", "1,2", "--angle", "3"], "cannot be used with"),
-        (&["--target", "1,2", "--direction", "3"], "cannot be used with"),
-        (&["--sun", "1,2", "--sun-angle", "3"], "cannot be used with"),
-        (&["--campaign", "3", "--output", "x"], "cannot be used with"),
+        (&["--target", "1deg,2deg", "--angle", "3deg"], "cannot be used with"),
+        (&["--target", "1deg,2deg", "--direction", "3deg"], "cannot be used with"),
+        (&["--sun", "1deg,2deg", "--sun-angle", "3deg"], "cannot be used with"),
+        (&["--campaign", "3d", "--output", "x"], "cannot be used with"),
     ] {
         let text = parse(words);
         assert!(text.contains(part), "{words:?}: {text}");

@@ -31,7 +31,7 @@ fn row(task: &Task, shape: Shape, turns: f64) -> TrainForecast {
 fn alternating_trains_fire_the_thrusters_they_were_planned_for() {
     let Some(fmu) = shipped() else { return };
     for thruster in ["IA", "IIIA", "IIIR", "IR+", "axial couple I-IV", "upper radial I"] {
-        let given = options("--angle 2 --angle-tolerance 4 --ratio-uncertainty 0.01");
+        let given = options("--angle 2deg --angle-tolerance 4 --ratio-uncertainty 0.01");
         let task = Task::new(&Options { thruster: Some(thruster.into()), ..given }, &ace()).unwrap();
         // A canted thruster also spins the body up, by 2 % on the way, which the theory does not know.
         let tolerance = if thruster == "IR+" { 0.02 } else { 0.002 };
@@ -53,7 +53,7 @@ fn turns_are_simulated_to_their_end_as_far_as_they_may_be_requested() {
     let Some(fmu) = shipped() else { return };
     for timing in ["sun", "clock", "phase"] {
         for angle_deg in [89.0, 91.0, 135.0, super::MAX_ANGLE_DEG] {
-            let task = task(&format!("--angle {angle_deg} --timing {timing} --ratio-uncertainty 0.01"));
+            let task = task(&format!("--angle {angle_deg}deg --timing {timing} --ratio-uncertainty 0.01"));
             for turns in [0.5, 1.0] {
                 let row = evaluate(&task, Shape::Tapered { order: 1 }, 8, turns).unwrap();
                 let simulated = verify(&fmu, &task, &row, 2).unwrap();
@@ -68,7 +68,7 @@ fn turns_are_simulated_to_their_end_as_far_as_they_may_be_requested() {
 fn a_train_timed_by_the_sun_ends_as_quietly_as_one_timed_by_phase() {
     let Some(fmu) = shipped() else { return };
     for angle_deg in [10, 30, 90] {
-        let task = task(&format!("--angle {angle_deg} --timing sun"));
+        let task = task(&format!("--angle {angle_deg}deg --timing sun"));
         let row = row(&task, Shape::Tapered { order: 4 }, 1.0);
         let simulated = verify(&fmu, &task, &row, 5).unwrap();
         assert!(simulated.final_rad < 1.1 * row.final_rad, "{angle_deg}: {simulated:?} {row:?}");
@@ -80,7 +80,7 @@ fn a_train_timed_by_the_sun_ends_as_quietly_as_one_timed_by_phase() {
 fn the_corners_of_rate_and_ratio_are_simulated() {
     let Some(fmu) = shipped() else { return };
     let with = |arguments: &str| {
-        let task = task(&format!("--angle 2 --rate-uncertainty-rpm 0.1 {arguments}"));
+        let task = task(&format!("--angle 2deg --rate-uncertainty 0.1rpm {arguments}"));
         let row = row(&task, Shape::Tapered { order: 2 }, 1.0);
         (verify(&fmu, &task, &row, 9).unwrap(), row, task)
     };
@@ -104,7 +104,7 @@ fn the_corners_of_rate_and_ratio_are_simulated() {
 #[test]
 fn a_split_train_is_simulated_as_it_was_planned_and_not_as_the_true_ratio_would_have_it() {
     let Some(fmu) = shipped() else { return };
-    let task = task("--angle 2 --ratio-uncertainty 0.005");
+    let task = task("--angle 2deg --ratio-uncertainty 0.005");
     let row = row(&task, Shape::Split, 1.0);
     assert!(row.final_rad > 100.0 * row.nominal_final_rad);
     let simulated = verify(&fmu, &task, &row, 41).unwrap();
@@ -114,7 +114,7 @@ fn a_split_train_is_simulated_as_it_was_planned_and_not_as_the_true_ratio_would_
 #[test]
 fn a_plan_that_the_fmu_runs_otherwise_breaks_its_promise() {
     let Some(fmu) = shipped() else { return };
-    let task = task("--angle 2 --max-nutation 0.02 --max-final 0.004 --max-duration 12");
+    let task = task("--angle 2deg --max-nutation 0.02deg --max-final 0.004deg --max-duration 12min");
     let row = row(&task, Shape::Tapered { order: 1 }, 1.0);
     let broken = |task: &Task| verify(&fmu, task, &row, 3).unwrap().broken(task).join("; ");
     assert_eq!(broken(&task), "");

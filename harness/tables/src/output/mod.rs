@@ -102,7 +102,11 @@ impl Outputs {
         for Plot { file, .. } in plots {
             let svg = open(file, OutputKind::Picture)?;
             if csv.as_ref().is_some_and(|csv| csv.is_same(&svg)) {
-                return Err(format!("one file cannot take both: see --output and {}", file.option));
+                return Err(format!(
+                    "{}: one file cannot take table and picture: see {}",
+                    file.path.display(),
+                    file.option
+                ));
             }
             if pictures.iter().any(|other| other.is_same(&svg)) {
                 let path = file.path.display();

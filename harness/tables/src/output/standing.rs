@@ -72,8 +72,7 @@ impl OutputKind<'_> {
     /// The option that gives it a place instead, if one does.
     fn option(self) -> Option<&'static str> {
         match self {
-            Self::Table(_) | Self::Origin => Some("--output"),
-            Self::Picture => Some("--plot"),
+            Self::Table(_) | Self::Origin | Self::Picture => Some("--output"),
             Self::History(_) => None,
         }
     }

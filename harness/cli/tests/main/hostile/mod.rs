@@ -129,7 +129,9 @@ fn commands_that_load(scratch: &TempDir) -> Option<Vec<Vec<String>>> {
         ("CRAFT", at("my.toml")),
         ("MISSION", at("m.toml")),
         ("FOLDER", scratch.path().to_owned()),
-        ("OUT", at("out")),
+        ("OUT", at("out.fmu")),
+        ("ROWS", at("out.csv")),
+        ("TOML", at("out.toml")),
         ("PICTURE", at("out.svg")),
     ];
     let lines = [
@@ -141,9 +143,9 @@ fn commands_that_load(scratch: &TempDir) -> Option<Vec<Vec<String>>> {
         "info PLANT --coefficients",
         "check CRAFT --template PLANT",
         "check MISSION --template PLANT",
-        "run MISSION --template PLANT --output OUT",
-        "ephemeris PLANT --start 2011-04-06TDB --stop 2011-05-06TDB --output OUT",
-        "plan spin --fmu SPIN",
+        "run MISSION --template PLANT --output ROWS",
+        "ephemeris --template PLANT --start 2011-04-06TDB --stop 2011-05-06TDB --output TOML",
+        "plan spin --template SPIN",
         "study momentum/table2 --dist FOLDER --output OUT",
     ];
     let place = |word: &str| {

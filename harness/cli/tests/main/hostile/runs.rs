@@ -18,7 +18,7 @@ fn a_run_names_the_call_that_killed_or_stopped_it_and_keeps_the_rows() {
         let Some(scratch) = hostile(behaviour, "IN_STEP") else { return };
         let (table, part) = (scratch.path().join("a.csv"), scratch.path().join("a.csv.part"));
         fs::write(&table, "the last good one").unwrap();
-        let printed = ended(&scratch, "run", &[&["--output", shown(&table)], more].concat(), 1);
+        let printed = ended(&scratch, "run", &[&["--output", shown(&table)], more].concat(), 2);
         assert!(printed.contains(in_step) && printed.contains(expected), "{behaviour}: {printed}");
         assert!(
             printed.contains("4 rows so far: ") && printed.contains("a.csv.part"),
@@ -35,7 +35,7 @@ fn a_run_names_the_call_that_killed_or_stopped_it_and_keeps_the_rows() {
 fn nan_is_an_error_that_names_the_variable_and_keeps_the_rows_before() {
     let Some(scratch) = hostile("ANSWERS_NAN", "IN_STEP") else { return };
     let table = scratch.path().join("a.csv");
-    let printed = ended(&scratch, "run", &["--output", shown(&table)], 1);
+    let printed = ended(&scratch, "run", &["--output", shown(&table)], 2);
     assert!(printed.contains("fmi2GetReal(x): answered NaN at 3 s"), "{printed}");
     assert_eq!(rows(&scratch.path().join("a.csv.part")), ["0,0", "1,1", "2,2"]);
     assert!(!table.exists());
@@ -48,7 +48,7 @@ fn a_run_names_the_call_before_the_first_step_too() {
     {
         let Some(scratch) = hostile("CRASHES", place) else { return };
         let table = scratch.path().join("a.csv");
-        let printed = ended(&scratch, "run", &["--output", shown(&table)], 1);
+        let printed = ended(&scratch, "run", &["--output", shown(&table)], 2);
         assert!(printed.contains(expected) && printed.contains("segmentation fault"), "{printed}");
         assert!(!table.exists() && !scratch.path().join("a.csv.part").exists());
     }
@@ -82,14 +82,14 @@ fn a_run_ends_when_the_reader_of_its_output_goes() {
     nothing_left(&scratch);
     // A picture that is not drawn is no success.
     let picture = scratch.path().join("a.svg");
-    let mut child = start(command(&scratch, "run", &[&endless[..], &["--plot", shown(&picture)]].concat()));
+    let mut child = start(command(&scratch, "run", &[&endless[..], &["--output", shown(&picture)]].concat()));
     drop(child.stdout.take());
     let output = wait(child);
     assert!(
         text(&output).contains("nobody reads the standard output any more: the run ends at"),
         "{output:?}"
     );
-    assert!(output.status.code() == Some(1) && !picture.exists());
+    assert!(output.status.code() == Some(2) && !picture.exists());
 }
 
 #[cfg(target_os = "linux")]
@@ -114,7 +114,7 @@ fn a_run_that_is_killed_leaves_whole_rows_and_no_process() {
 #[test]
 fn what_an_fmu_says_moves_no_cursor() {
     let Some(scratch) = hostile("STAINS", "IN_STEP") else { return };
-    let printed = ended(&scratch, "run", &["--log"], 1);
+    let printed = ended(&scratch, "run", &["--log"], 2);
     says(&printed, &["\\u{1b}[2Jcleared\\u{7}", "\\u{1b}]0;title\\u{7} a\\rb"]);
     assert!(!printed.contains(is_control), "{printed:?}");
     // Names and texts of the description too.
@@ -142,7 +142,7 @@ fn a_component_that_crashes_or_hangs_is_named_with_its_call_and_the_rows_stay() 
         fs::write(system.join("SystemStructure.ssd"), SYSTEM).unwrap();
         fs::rename(&system, scratch.path().join("fmu")).unwrap();
         let csv = scratch.path().join("rows.csv");
-        let printed = ended(&scratch, "run", &[&["--output", shown(&csv)], more].concat(), 1);
+        let printed = ended(&scratch, "run", &[&["--output", shown(&csv)], more].concat(), 2);
         let call = "Pair, component one: fmi2DoStep(currentCommunicationPoint=3";
         assert!(printed.contains(call) && printed.contains(found), "{printed}");
         let rows = fs::read_to_string(scratch.path().join("rows.csv.part")).unwrap();

@@ -110,7 +110,7 @@ fn what_an_fmu_keeps_over_a_reset_is_warned_of() {
 fn a_run_whose_process_was_killed_is_simulated_again() {
     let Some(scratch) = hostile("DIES", "IN_STEP_IF") else { return };
     campaign(scratch.path());
-    let (table, said) = swept(&scratch, &[], true, 1);
+    let (table, said) = swept(&scratch, &[], true, 2);
     assert!(
         table.is_empty() && said.contains("runs.csv.part: run 1: its process was killed"),
         "{table}{said}"
@@ -120,7 +120,7 @@ fn a_run_whose_process_was_killed_is_simulated_again() {
     assert_eq!(table, UNDISTURBED);
     assert!(said.contains("6 ok") && said.contains("2 runs in"), "{said}");
     // A run that is killed each time fails.
-    swept(&scratch, &["--fresh"], true, 1);
+    swept(&scratch, &["--fresh"], true, 2);
     let (table, said) = swept(&scratch, &["--resume"], true, 1);
     assert_eq!(table.matches(",failed,").count(), 2, "{table}");
     assert!(table.contains("signal 9 (killed)") && said.contains("4 ok, 2 failed"), "{table}{said}");
@@ -130,6 +130,6 @@ fn a_run_whose_process_was_killed_is_simulated_again() {
 fn a_library_that_cannot_be_loaded_ends_the_campaign() {
     let Some(scratch) = hostile("0", "UNDEFINED") else { return };
     campaign(scratch.path());
-    let (table, said) = swept(&scratch, &[], false, 1);
+    let (table, said) = swept(&scratch, &[], false, 2);
     assert!(table.is_empty() && said.contains("defined_nowhere"), "{table}{said}");
 }

@@ -80,11 +80,8 @@ impl Builder<'_> {
         let [b_t_m, b_r_m, altitude_m] =
             [("bT", &flyby.b_t), ("bR", &flyby.b_r), ("altitude", &flyby.altitude)]
                 .map(|(key, written)| self.length(&place.key(key), written.as_deref()));
-        let angle_rad = |written: &Written| match written {
-            Written::Text(text) => values::angle(text).ok(),
-            _ => written.number(),
-        };
-        let angle_rad = self.read(&place.key("angle"), flyby.angle.as_deref(), angle_rad, ALLOWED_ANGLE);
+        let allowed = format_args!("an angle {ALLOWED_ANGLE}");
+        let angle_rad = self.read(&place.key("angle"), flyby.angle.as_deref(), Written::angle_rad, allowed);
         let aimpoint = match (b_t_m, b_r_m, altitude_m, angle_rad) {
             (Some(b_t_m), Some(b_r_m), None, None) => Some((FlybyAimpoint::Plane { b_t_m, b_r_m }, "bT")),
             (None, None, Some(altitude_m), Some(angle_rad)) => {

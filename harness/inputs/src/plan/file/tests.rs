@@ -23,7 +23,7 @@ fn the_least_file_has_defaults() {
 #[test]
 fn units_are_read() {
     let plan = parsed(
-        "mission = \"mission.toml\"\nfreeze = \"12 h\"\nwindow = 86400\nwindmill = 0.01\n\
+        "mission = \"mission.toml\"\nfreeze = \"12 h\"\nwindow = 86400\nwindmill = \"0.01 rad\"\n\
          [momentum]\nlimit = \"4 N.m.s\"\ndumps = 2\n[sunOffset]\nchange = true\nlargest = \"3 deg\"\n\
          [[contact]]\nstart = \"1 d\"\nstop = \"30 h\"\n\
          [[activity]]\nname = \"a\"\nstart = \"2008-04-01 UTC\"\nstop = \"2008-04-02 UTC\"\n\

@@ -75,6 +75,6 @@ fn what_is_no_recording_is_refused_by_name() {
         ("x\n1\n2\n".to_owned(), "column time"),
     ] {
         let refused = mission(&text).err().unwrap();
-        assert!(refused.contains(expected) && refused.contains("--mission"), "{text}: {refused}");
+        assert!(refused.contains(expected) && refused.contains("--recording"), "{text}: {refused}");
     }
 }

@@ -1,18 +1,16 @@
-//! `heliotorque plan leg`: the velocity at a place and date that leads to an encounter with a planet.
+//! `heliotorque plan` of a leg file: the velocity at a place and date that leads to an encounter with a planet.
 
 mod flights;
-pub mod options;
 mod picture;
 
 use std::{
     cell::RefCell,
     path::{Path, PathBuf},
-    process::ExitCode,
     time::Instant,
 };
 
 use ::files::{OutputFolder, Scratch};
-use files::outcome::Outcome;
+use files::outcome::{self, Answer, Outcome};
 use inputs::{
     leg::{FlybyAimpoint, file::LegFile},
     library::Library,
@@ -25,11 +23,11 @@ use physics::{constants::DAY_S, environment::dates};
 use toml_edit::{DocumentMut, value};
 
 use self::flights::LegFlights;
-pub use self::options::LegOptions;
 use super::{
     files::{check_standing, write_all},
     flights::SimulatedMission,
     mission_text,
+    options::FilePlan,
 };
 use crate::{
     Failure,
@@ -222,9 +220,9 @@ impl<'a> Prepared<'a> {
 }
 
 /// Finds the leg, writes the files and reports what came of it.
-pub fn run(options: &LegOptions) -> Outcome {
+pub fn run(options: &FilePlan) -> Outcome {
     let began = Instant::now();
-    let file = LegFile::read(&options.leg)?;
+    let file = LegFile::read(&options.file)?;
     check_standing(&options.output, NAMES)?;
     let _folder = OutputFolder::create(&options.output, "--output")?;
     let Prepared { of_leg, mission, arrival_s, begun } = Prepared::new(&file, options.template.as_deref())?;
@@ -254,9 +252,13 @@ pub fn run(options: &LegOptions) -> Outcome {
         };
         let found = shoot(&task, &mut flights);
         if interrupt::raised() {
-            return Ok(ExitCode::from(interrupt::INTERRUPTED));
+            return Ok(Answer::Interrupted);
         }
-        let leg = found.map_err(|error| refusal(&file, &error, &in_mission))?;
+        let leg = match found {
+            Ok(leg) => leg,
+            Err(LegError::Flight(why)) => return Err(in_mission(why).into()),
+            Err(infeasible) => return outcome::no(&refusal(&file, &infeasible)),
+        };
         let paths = flights.paths(&leg.velocity_m_s).map_err(in_mission)?;
         let names = [spacecraft_of(&mission.fmu)?.name, capitalised(file.body.it)];
         let picture = picture::svg([&names[0], &names[1]], (&task, &leg), &paths)?;
@@ -266,17 +268,17 @@ pub fn run(options: &LegOptions) -> Outcome {
     let json = report::json((&task, &leg), file.body.it, mission.zero_epoch_s)?;
     let contents = [(NAMES[0], text), (NAMES[1], picture), (NAMES[2], json)];
     let mut inputs = of_leg.mission.reads();
-    inputs.push(&options.leg);
+    inputs.push(&options.file);
     let written = write_all(&options.output, &contents, &inputs)?;
     if !options.quiet {
         terminal::print(&summary((&task, &leg), &file, mission.zero_epoch_s))?;
         written.iter().for_each(|path| terminal::note(&format!("wrote {}", path.display())));
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(Answer::Yes)
 }
 
-/// An error by the key that it comes from.
-fn refusal(file: &LegFile, error: &LegError, in_mission: &dyn Fn(Failure) -> String) -> String {
+/// An infeasible leg by the key that it comes from.
+fn refusal(file: &LegFile, error: &LegError) -> String {
     let what = error.to_string();
     match error {
         LegError::Inside { .. } | LegError::Lost { .. } => file.problem(&file.aimpoint, &what),
@@ -284,8 +286,9 @@ fn refusal(file: &LegFile, error: &LegError, in_mission: &dyn Fn(Failure) -> Str
         LegError::Fast { .. } | LegError::Lambert(LambertError::Time { .. }) => {
             file.problem(&file.arrive, &what)
         }
-        LegError::Lambert(_) | LegError::Orbit(_) => file.problem(&file.position_m, &what),
-        LegError::Flight(_) => in_mission(what.into()),
+        LegError::Lambert(_) | LegError::Orbit(_) | LegError::Flight(_) => {
+            file.problem(&file.position_m, &what)
+        }
     }
 }
 

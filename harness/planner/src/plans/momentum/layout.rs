@@ -50,7 +50,7 @@ pub(super) fn check_arrays(file: &PlanFile, mission: &SimulatedMission) -> Resul
     let Some((number, found)) = moved else { return Ok(()) };
     let what = format!(
         "found panel[{number}].control {found}, allowed: timeline or sunOffset, for arrays stay as they are up to `from`: first \
-         `plan momentum`"
+         a plan of the momentum"
     );
     Err(file.problem(&file.mission, &what).into())
 }

@@ -1,9 +1,8 @@
-//! `heliotorque plan momentum`: arrays, places of the Sun and alternation that hold the momentum of a mission.
+//! `heliotorque plan` of a plan file: arrays, places of the Sun and alternation that hold the momentum of a mission.
 
 mod flyby;
 mod flyby_task;
 mod layout;
-pub mod options;
 mod picture;
 mod planned;
 mod prepared;
@@ -11,24 +10,26 @@ mod prices;
 mod timeline;
 mod written;
 
-use std::{cell::RefCell, path::Path, process::ExitCode, time::Instant};
+use std::{cell::RefCell, path::Path, time::Instant};
 
 use ::files::OutputFolder;
 use drawing::{Chart, DrawingError, Picture};
-use files::outcome::Outcome;
+use files::outcome::{self, Answer, Outcome};
 use inputs::{library::Library, plan::file::PlanFile};
 use isolation::interrupt;
 use nalgebra::{Matrix4, Vector3};
 use physics::constants::DAY_S;
 
-pub use self::options::MomentumOptions;
 use self::{
     flyby_task::FlybyTask,
     layout::orbit_layout,
     planned::{NAMES, Planned},
     prepared::Prepared,
 };
-use super::files::{check_standing, write_all};
+use super::{
+    files::{check_standing, write_all},
+    options::FilePlan,
+};
 use crate::{
     Failure,
     flyby::report::FlybyReport,
@@ -40,41 +41,20 @@ use crate::{
     },
 };
 
-/// Kind of plan.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PlanKind {
-    /// Momentum alone.
-    Momentum,
-    /// Momentum and an encounter.
-    Flyby,
-}
-
-impl PlanKind {
-    /// Refuses a plan file that is for the other one.
-    fn check(self, file: &PlanFile) -> Result<(), String> {
-        match (self, &file.flyby) {
-            (Self::Flyby, None) => {
-                let what = "flyby: found none, allowed: [flyby] with the aim, for `plan flyby`; `plan momentum` plans without";
-                Err(file.problem(&file.mission, what))
-            }
-            (Self::Momentum, Some(flyby)) => {
-                let what = format!("found it, allowed with `plan flyby {}`", file.file.display());
-                Err(file.problem(flyby, &what))
-            }
-            (Self::Momentum, None) => {
-                let what = "found it without [flyby], allowed with it, for `plan flyby`";
-                let other = file.update.as_ref().map(|at| file.problem(at, what));
-                let other = other.or_else(|| Some(file.problem(file.compare.as_ref()?, what)));
-                let other = other.or_else(|| Some(file.problem(file.monte_carlo.as_ref()?, what)));
-                other.map_or(Ok(()), Err)
-            }
-            (Self::Flyby, Some(_)) => Ok(()),
-        }
+/// Refuses what only a plan with [flyby] takes.
+fn check(file: &PlanFile) -> Result<(), String> {
+    if file.flyby.is_some() {
+        return Ok(());
     }
+    let what = "found it without [flyby], allowed with it";
+    let other = file.update.as_ref().map(|at| file.problem(at, what));
+    let other = other.or_else(|| Some(file.problem(file.compare.as_ref()?, what)));
+    let other = other.or_else(|| Some(file.problem(file.monte_carlo.as_ref()?, what)));
+    other.map_or(Ok(()), Err)
 }
 
 /// Reads what the plan file names, and simulates the mission as it is.
-fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> Result<Planned<'a>, Failure> {
+fn opened<'a>(options: &'a FilePlan, file: &PlanFile, began: Instant) -> Result<Planned<'a>, Failure> {
     let prepared = Prepared::new(file, options.template.as_deref())?;
     if let Some(at) = &file.update {
         let (updated, folder) = flyby::updated(file, at, &prepared.mission)?;
@@ -104,7 +84,7 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
     };
     let least = if mission.is_in_orbit() { Least::Momentum } else { Least::Tilt };
     let target = flyby_task.as_ref().map(FlybyTask::target);
-    let task = PlanTask { layout, limit, dumps: file.dumps, least, budget_s: options.budget, target };
+    let task = PlanTask { layout, limit, dumps: file.dumps, least, budget_s: options.budget_s, target };
     let last = RefCell::new(String::new());
     Ok(Planned {
         options,
@@ -128,8 +108,7 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
 /// Refusals of the command.
 pub fn checked(path: &Path, library: Library<'_>) -> Result<String, Failure> {
     let found = PlanFile::read(path)?;
-    let kind = if found.flyby.is_some() { PlanKind::Flyby } else { PlanKind::Momentum };
-    kind.check(&found)?;
+    check(&found)?;
     let unjudged = library.unjudged(&found.mission.it)?;
     if unjudged.is_none() {
         Prepared::new(&found, library.template())?;
@@ -155,10 +134,10 @@ pub fn checked(path: &Path, library: Library<'_>) -> Result<String, Failure> {
 }
 
 /// Plans, writes the files and reports what came of it.
-pub fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
+pub fn run(options: &FilePlan) -> Outcome {
     let began = Instant::now();
-    let file = PlanFile::read(&options.plan)?;
-    kind.check(&file)?;
+    let file = PlanFile::read(&options.file)?;
+    check(&file)?;
     check_standing(&options.output, NAMES)?;
     let _folder = OutputFolder::create(&options.output, "--output")?;
     let planned = opened(options, &file, began)?;
@@ -178,7 +157,7 @@ pub fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
     let mut simulates = &planned;
     let outcome = plan(&planned.task, &planned.sunlit, &planned.simulated, &mut simulates);
     if interrupt::raised() {
-        return Ok(ExitCode::from(interrupt::INTERRUPTED));
+        return Ok(Answer::Interrupted);
     }
     let found = match outcome {
         Ok(found) => found,
@@ -196,8 +175,9 @@ pub fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
                 none.distance_au,
                 none.suns,
             );
-            return Err(file.problem(&file.mission, &what).into());
+            return outcome::no(&file.problem(&file.mission, &what));
         }
+        Err(limit @ PlanError::Limit { .. }) => return outcome::no(&limit.to_string()),
         Err(error) => return Err(error.to_string().into()),
     };
     let prices = prices::all(file, &planned, &found)?;
@@ -237,7 +217,7 @@ pub fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
     }
     if let Some(why) = &found.flight.ended {
         terminal::note(&format!(
-            "warning: the mission with this plan ends early, see `plan leg` and `plan flyby`: {why}"
+            "warning: the mission with this plan ends early, see `heliotorque new leg`: {why}"
         ));
     }
     if !options.quiet {
@@ -249,11 +229,13 @@ pub fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
             terminal::note(&format!("wrote {}", options.output.join(name).display()));
         }
     }
-    if found.exceeded.is_some() {
-        check_contacts(file, &planned, &found)?;
+    if found.exceeded.is_some()
+        && let Some(what) = full_contacts(file, &planned, &found)
+    {
+        return outcome::no(&what);
     }
     let is_planned = report::status(&found, &planned.task) == "planned";
-    Ok(if is_planned { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+    Ok(Answer::from(is_planned))
 }
 
 /// Writes where the mission as it is passes its planet, for a plan without an aim.
@@ -265,7 +247,7 @@ fn describe(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Outcome {
     if !planned.options.quiet {
         terminal::print(&flyby::summary(&report, flyby_task).join("\n"))?;
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(Answer::Yes)
 }
 
 /// Writes what there is of a plan whose aimpoint is out of reach.
@@ -280,7 +262,7 @@ fn refuse(planned: &Planned<'_>, (report, flyby_task): (&FlybyReport, &FlybyTask
     if !planned.options.quiet {
         terminal::print(&flyby::summary(report, flyby_task).join("\n"))?;
     }
-    Ok(ExitCode::FAILURE)
+    Ok(Answer::No)
 }
 
 /// `plan.svg`.
@@ -295,10 +277,10 @@ fn drawn(chart: Option<&Chart>, flyby: Option<(&FlybyReport, &FlybyTask)>) -> Re
     drawing::svg(&all)
 }
 
-/// Refuses contacts that leave no time for an alternation without which there is no plan.
-fn check_contacts(file: &PlanFile, planned: &Planned<'_>, found: &MomentumPlan) -> Result<(), Failure> {
+/// Problem of contacts that leave no time for an alternation without which there is no plan.
+fn full_contacts(file: &PlanFile, planned: &Planned<'_>, found: &MomentumPlan) -> Option<String> {
     let full = |window: &&Window| window.kind == WindowKind::Free && window.free_of_contact.is_empty();
-    let Some(window) = found.windows.iter().find(full) else { return Ok(()) };
+    let window = found.windows.iter().find(full)?;
     let mut task = planned.task.clone();
     task.layout.contacts_s.clear();
     let needs = crate::momentum::attainable::least_excess_n_m_s(
@@ -307,24 +289,19 @@ fn check_contacts(file: &PlanFile, planned: &Planned<'_>, found: &MomentumPlan) 
         &planned.simulated,
         f64::NEG_INFINITY,
     );
-    let (Ok(excess), Some(at)) = (
-        needs,
-        file.contacts.iter().find(|at| {
-            let span = at.it.map(|instant| planned.mission.time_s(instant));
-            matches!(span, [Some(from_s), Some(to_s)] if from_s < window.stop_s && to_s > window.start_s)
-        }),
-    ) else {
-        return Ok(());
-    };
-    if excess > 0.0 {
-        return Ok(());
+    let at = file.contacts.iter().find(|at| {
+        let span = at.it.map(|instant| planned.mission.time_s(instant));
+        matches!(span, [Some(from_s), Some(to_s)] if from_s < window.stop_s && to_s > window.start_s)
+    })?;
+    if needs.ok()? > 0.0 {
+        return None;
     }
     let start_s = planned.mission.start_s;
     let [from_d, to_d] = [window.start_s, window.stop_s].map(|time_s| (time_s - start_s) / DAY_S);
     let what = format!(
         "found contacts that fill the window from day {from_d:.1} to {to_d:.1}, allowed: some time without contact: no plan was found without alternation there"
     );
-    Err(file.problem(at, &what).into())
+    Some(file.problem(at, &what))
 }
 
 fn events(planned: &Planned<'_>, found: &MomentumPlan) -> Vec<PlanEvent> {
@@ -337,7 +314,7 @@ fn events(planned: &Planned<'_>, found: &MomentumPlan) -> Vec<PlanEvent> {
 
 fn write(planned: &Planned<'_>, contents: &[(&'static str, String)]) -> Result<(), Failure> {
     let mut inputs = planned.mission.mission.reads();
-    inputs.push(&planned.options.plan);
+    inputs.push(&planned.options.file);
     write_all(&planned.options.output, contents, &inputs)?;
     Ok(())
 }

@@ -7,8 +7,10 @@ use inputs::plan::file::{Activity, PlanFile};
 use nalgebra::Vector3;
 
 use super::{
-    super::flights::SimulatedMission, flyby_task::FlybyTask, options::MomentumOptions,
-    timeline::MissionTimeline, written,
+    super::{flights::SimulatedMission, options::FilePlan},
+    flyby_task::FlybyTask,
+    timeline::MissionTimeline,
+    written,
 };
 use crate::{
     Failure,
@@ -27,7 +29,7 @@ pub(super) const NAMES: [&str; 6] =
 
 /// A mission with what a plan needs of it.
 pub(super) struct Planned<'a> {
-    pub options: &'a MomentumOptions,
+    pub options: &'a FilePlan,
     /// The plan file, its times by the clock of `mission`.
     pub file: PlanFile,
     pub mission: SimulatedMission,
@@ -117,12 +119,13 @@ impl Planned<'_> {
         windows: &[Window],
         dumps: &[PlannedDump],
     ) -> Result<Vec<(f64, u32)>, Failure> {
-        if self.options.seeds == 0 {
+        let count = self.options.seeds;
+        if count == 0 {
             return Ok(Vec::new());
         }
         let (mission, _folder) = self.open_plan((windows, dumps), None)?;
-        let bar = terminal::progress(self.options.seeds.into(), "seeds", self.options.quiet);
-        let flights = (1..=self.options.seeds).map(|seed| {
+        let bar = terminal::progress(count.into(), "seeds", self.options.quiet);
+        let flights = (1..=count).map(|seed| {
             let flight = mission.simulate(Some(seed))?;
             bar.inc(1);
             Ok((flight.greatest(self.task.limit.size).0, flight.rows.last().map_or(0, |row| row.dumps)))

@@ -319,7 +319,7 @@ impl MissionTimeline {
             let text = format!("[[event]]\nat = {}\ndump = {:?}\n", clock(dump.at_s), shown_n_m_s(&after));
             events.push((dump.at_s, text));
         }
-        let mut text = String::from("# Written by `heliotorque plan momentum`.\n");
+        let mut text = String::from("# Written by `heliotorque plan`.\n");
         for mut list in [commands, panels, events] {
             list.sort_by(|a, b| a.0.total_cmp(&b.0));
             for (_, table) in list {

@@ -5,11 +5,11 @@ pub mod options;
 mod picture;
 mod table;
 
-use std::{path::Path, process::ExitCode};
+use std::path::Path;
 
 use files::{
     Destination,
-    outcome::{self, Outcome},
+    outcome::{self, Answer, Outcome},
 };
 
 use crate::refit::{Deviations, Requested, Telemetry, fit};
@@ -54,7 +54,7 @@ pub fn run(arguments: &Refit) -> Outcome {
         terminal::note(&warning);
     }
     outcome::write_all(destinations.into_iter().zip(contents), arguments.quiet)?;
-    Ok(ExitCode::SUCCESS)
+    Ok(Answer::Yes)
 }
 
 /// TOML, JSON and picture, looked at before anything is simulated.

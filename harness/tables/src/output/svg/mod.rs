@@ -1,4 +1,4 @@
-//! The picture of `run --plot`: one panel per vector or variable, in display units.
+//! The picture of `run`: one panel per vector or variable, in display units.
 
 use std::{
     collections::BTreeMap,

@@ -1,18 +1,18 @@
-//! Request of a momentum plan.
+//! Request of a plan by its file.
 
 use std::path::PathBuf;
 
-/// Request of `heliotorque plan`.
+/// Request of `heliotorque plan FILE`.
 #[derive(Clone, Debug)]
-pub struct MomentumOptions {
-    /// Plan file.
-    pub plan: PathBuf,
-    /// File or folder to write.
+pub struct FilePlan {
+    /// Plan or leg file.
+    pub file: PathBuf,
+    /// Folder to write.
     pub output: PathBuf,
     /// FMU whose library reads the files.
     pub template: Option<PathBuf>,
     /// Longest time of a search, in s.
-    pub budget: f64,
+    pub budget_s: f64,
     /// Number of flights with other seeds.
     pub seeds: u32,
     /// Whether nothing is printed.
