@@ -227,28 +227,22 @@ pub fn run(arguments: &Run) -> Outcome {
     };
     if !result.visits.is_empty() {
         let names = carried::timeline::names(&subject.folder()).unwrap_or_default();
-        write_visits(
-            &VisitTable { visits: &result.visits, names: &names, zero_epoch_s },
-            visits,
-            arguments.quiet,
-        )?;
+        let table = VisitTable { visits: &result.visits, names: &names, zero_epoch_s };
+        write_visits(&table, visits, arguments.quiet)?;
     }
     if !arguments.quiet {
         let steps = ((last_s - times.start_s) / times.step_s).ceil();
         terminal::note(&format!("{steps} steps to {last} s in {:.3} s", elapsed.as_secs_f64()));
     }
     if !arguments.quiet || !checks.is_kept() {
-        let lines = checks.report(described, zero_epoch_s);
-        lines.iter().for_each(|line| terminal::note(line));
+        checks.report(described, zero_epoch_s).iter().for_each(|line| terminal::note(line));
     }
     match ended {
         Ended::AtStop => {}
         Ended::ByItself => terminal::note(&format!("{} ended by itself at {last} s", subject.name())),
         Ended::Cancelled => {
-            let kept = so_far(kept);
-            terminal::note(&format!(
-                "interrupted at {last} s; what was recorded until then is written{kept}"
-            ));
+            let what = "what was recorded until then is written";
+            terminal::note(&format!("interrupted at {last} s; {what}{}", so_far(kept)));
             return Ok(Answer::Interrupted);
         }
     }
