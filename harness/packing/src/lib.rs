@@ -10,3 +10,4 @@ pub mod coefficients;
 pub mod instance;
 pub mod manual;
 pub mod pointing;
+pub mod visits;

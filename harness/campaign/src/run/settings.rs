@@ -135,6 +135,13 @@ impl Settings {
         Ok((fmu, settings, folder))
     }
 
+    /// Returns the names of the variables that are given a value, once or over time.
+    pub fn given<'a>(&'a self, described: &'a Description) -> impl Iterator<Item = &'a String> {
+        let positions = self.inputs.iter().flat_map(|table| table.positions());
+        let inputs = positions.map(|position| &described.variables[position].name);
+        self.sets.iter().map(|(name, _)| name).chain(inputs)
+    }
+
     /// Runs it in this process, telling the time in s after every step, until a word says that it shall end; an FMU is watched.
     pub fn simulate_into<'a>(
         &'a self,

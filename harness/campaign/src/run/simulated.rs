@@ -1,6 +1,6 @@
 //! Subject of a run: the arguments of `heliotorque run` over those of a mission, and the FMU packed from its files.
 
-use std::{error::Error, ffi::OsString, path::Path};
+use std::{error::Error, path::Path};
 
 use files::{
     Scratch,
@@ -12,7 +12,7 @@ use inputs::{
     mission::{Inputs, Mission, SpacecraftSource},
     values::Instant,
 };
-use isolation::{Bounds, Relayed, SMALL, path_option};
+use isolation::{Bounds, Relayed, Request, SMALL};
 use packing::assembly::{Parts, Source, assemble};
 
 use super::{options::Run, subject::Subject};
@@ -82,10 +82,9 @@ impl Simulated {
         }
         let name = template.map_or_else(|| "the library".to_owned(), |path| path.display().to_string());
         let bounds = Bounds::of_calls(self.run.timeout.unwrap_or(PACKING_S));
-        let into = path_option("--into=", folder.path());
-        let arguments = [OsString::from("assemble"), mission.file.clone().into(), into];
-        let arguments = arguments.into_iter().chain(template.map(|path| path_option("--template=", path)));
-        Relayed { name, bounds, limits: SMALL }.run(arguments)?;
+        let [mission, into] = [&mission.file, folder.path()].map(Into::into);
+        let request = Request::Assemble { mission, template: template.map(Into::into), into };
+        Relayed { name, bounds, limits: SMALL }.run(request)?;
         Ok(folder)
     }
 

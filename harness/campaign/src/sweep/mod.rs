@@ -1,6 +1,7 @@
 //! `heliotorque sweep`: many runs of a mission or an FMU whose values vary, and what is kept of each.
 
 mod histories;
+mod kept;
 pub mod options;
 mod origin;
 mod outputs;
@@ -43,7 +44,7 @@ use resolved::Campaign;
 use series::Series;
 use started::{Counts, OPTION, Started};
 use table::RunTable;
-pub use worker::{SweepInChild, run as run_in_child};
+pub use worker::run as run_in_child;
 
 /// A campaign file in a line, after all that the command does before its first run.
 ///

@@ -22,7 +22,7 @@ use fmi::{
 use packing::{carried, pointing};
 
 use ::files::outcome::Outcome;
-pub(crate) use child::{Probe, run_probe};
+pub(crate) use child::run_probe;
 pub(crate) use options::Check;
 use report::{Listed, Section};
 
