@@ -5,8 +5,8 @@ use std::{error::Error, ops::Range, path::Path};
 use fmi::{RecordedPoints, Value, csv};
 use inputs::{
     campaign::{
-        description::SamplingWord,
         file::{CampaignFile, WrittenDistribution},
+        keys::SamplingWord,
     },
     epoch::Dates,
     mission::{Limit, in_file},
@@ -91,7 +91,7 @@ pub(super) struct Campaign {
 /// The run that the runs of a campaign are like.
 pub(super) fn simulated(campaign: &CampaignFile, template: Option<&Path>) -> Result<Simulated, String> {
     Simulated::new(&Run {
-        fmu: campaign.simulated.clone(),
+        fmu: campaign.simulated().to_owned(),
         start: campaign.start_s,
         stop: campaign.stop_s.map(Instant::Time),
         step: campaign.step_s,
@@ -123,7 +123,7 @@ impl Campaign {
         let design = reader.design(varied, sampling)?;
         let kept = reader.kept(&simulated, &settings)?;
         let points = |every_s: Option<f64>| RecordedPoints::new(&settings.times, every_s);
-        let percentile_points = points(file.keep.every_s)?;
+        let percentile_points = points(file.keep.as_ref().and_then(|keep| keep.every_s))?;
         let history_points = points(simulated.run.every)?;
         Ok(Self { settings, design, varied: positions, kept, percentile_points, history_points, simulated })
     }
@@ -175,7 +175,7 @@ impl Campaign {
                 if let Err(misfit) =
                     value::check(described, variable, &Value::of_f64(variable.kind.base_type(), number))
                 {
-                    let at = file.vary.iter().find(|at| at.it.name == variable.name);
+                    let at = file.distributions().find(|at| at.it.name == variable.name);
                     let place = at.map_or_else(
                         || format!("{}: {}", file.file.display(), variable.name),
                         |at| at.place(&file.file),
@@ -201,7 +201,7 @@ impl Reader<'_> {
 
     /// Varied values, by the names that the FMU has.
     fn varied(&self) -> Result<(Vec<Varied>, Sampling), String> {
-        let sampling = match self.file.sampling.it {
+        let sampling = match self.file.sampling {
             SamplingWord::Random => Sampling::Random,
             SamplingWord::LatinHypercube => Sampling::LatinHypercube,
             SamplingWord::Sobol => Sampling::Sobol,
@@ -210,10 +210,10 @@ impl Reader<'_> {
             SamplingWord::File => return self.table(),
         };
         let (mut varied, mut problems) = (Vec::new(), Vec::new());
-        for at in &self.file.vary {
+        for at in self.file.distributions() {
             match self.one(&at.it) {
                 Ok(one) => varied.push(one),
-                Err(what) => problems.push(self.file.problem(at, &what)),
+                Err(what) => problems.push(self.file.problem(&at, &what)),
             }
         }
         if problems.is_empty() { Ok((varied, sampling)) } else { Err(problems.join("\n")) }
@@ -250,15 +250,15 @@ impl Reader<'_> {
             .ok_or_else(|| format!("found {written:?}, allowed: a value"))
     }
 
-    fn one(&self, written: &WrittenDistribution) -> Result<Varied, String> {
-        let WrittenDistribution { name, key, values } = written;
+    fn one(&self, written: &WrittenDistribution<'_>) -> Result<Varied, String> {
+        let WrittenDistribution { name, key, values } = *written;
         let variable = self.variable(name)?;
         let is_real = variable.kind.base_type() == BaseType::Real;
-        if !is_real && !matches!(*key, "values" | "steps") {
+        if !is_real && !matches!(key, "values" | "steps") {
             return Err(format!("found {key} of a variable that is no Real, allowed: values"));
         }
         // The last one of `steps` is a count.
-        let numbers = if *key == "steps" { &values[..2] } else { &values[..] };
+        let numbers = if key == "steps" { &values[..2] } else { values };
         let numbers: Vec<f64> =
             numbers.iter().map(|it| self.number(variable, it)).collect::<Result<_, _>>()?;
         let ordered = |from: usize, to: usize| {
@@ -267,7 +267,7 @@ impl Reader<'_> {
                 format!("found {} and {}, allowed: the smaller one first", values[from], values[to])
             })
         };
-        let distribution = match *key {
+        let distribution = match key {
             "normal" => {
                 if numbers[1] <= 0.0 {
                     return Err(format!("found the standard deviation {}, allowed: above 0", values[1]));
@@ -370,10 +370,10 @@ impl Reader<'_> {
                     format!("{}: found no `runs`, allowed: {allowed}", file.file.display())
                 }
                 (DesignError::Kind { name, .. } | DesignError::Empty { found: name, .. }, _) => {
-                    let at = file.vary.iter().find(|at| name.starts_with(&at.it.name));
+                    let at = file.distributions().find(|at| name.starts_with(at.it.name));
                     at.map_or_else(
                         || format!("{}: {error}", file.file.display()),
-                        |at| file.problem(at, &error.to_string()),
+                        |at| file.problem(&at, &error.to_string()),
                     )
                 }
                 (DesignError::Correlation(_), _) => match file.correlations.first() {
@@ -405,8 +405,7 @@ impl Reader<'_> {
     }
 
     fn kept(&self, simulated: &Simulated, settings: &Settings) -> Result<Kept, Box<dyn Error>> {
-        let keep = &self.file.keep;
-        let histories = match (&keep.histories, &simulated.mission) {
+        let histories = match (self.file.histories(), &simulated.mission) {
             (None, _) => Vec::new(),
             // What the mission records, its pictures and limits among it.
             (Some(_), Some(_)) => settings.positions.clone(),
@@ -415,15 +414,17 @@ impl Reader<'_> {
         let mut kept = Kept { histories: histories.len(), positions: histories, ..Kept::default() };
         let is_number =
             |position: &usize| self.described.variables[*position].kind.base_type() != BaseType::String;
-        let finals = match &keep.finals {
-            Some(names) => self.positions(names)?,
+        let finals = match &self.file.keep {
+            Some(keep) => self.positions(&keep.finals)?,
             None => fmi::outputs(self.described).into_iter().filter(is_number).collect(),
         };
         kept.finals = finals.into_iter().map(|position| kept.column(position)).collect();
-        kept.extremes =
-            self.positions(&keep.extremes)?.into_iter().map(|position| kept.column(position)).collect();
-        kept.percentiles =
-            self.positions(&keep.percentiles)?.into_iter().map(|position| kept.column(position)).collect();
+        if let Some(keep) = &self.file.keep {
+            let mut columns = |names| -> Result<Vec<usize>, String> {
+                Ok(self.positions(names)?.into_iter().map(|position| kept.column(position)).collect())
+            };
+            (kept.extremes, kept.percentiles) = (columns(&keep.extremes)?, columns(&keep.percentiles)?);
+        }
         for limit in &settings.limits {
             if let Some(position) = self.position(&limit.name) {
                 let column = kept.column(position);
