@@ -132,9 +132,9 @@ def test_angle_and_step_are_taken_where_they_mean_something(heliotorque, dist, t
     assert turn_deg(attitude(history[0]), attitude(history[-1])) == pytest.approx(20.0, abs=2e-3)
     assert float(history[len(history) // 3]["rate_x_rad_s"]) < 0.0
     refused = run(heliotorque, dist, tmp_path, "control/safe-mode", "--angle", "20deg")
-    assert refused.returncode == 1 and "control/safe-mode does not take --angle" in refused.stderr
+    assert refused.returncode == 2 and "control/safe-mode does not take --angle" in refused.stderr
     refused = run(heliotorque, dist, tmp_path, "control/transition", "--step", "0.3")
-    assert refused.returncode == 1 and "a second or a whole part of it" in refused.stderr
+    assert refused.returncode == 2 and "a second or a whole part of it" in refused.stderr
     assert run(heliotorque, dist, tmp_path, "control/slew", "--angle", "20").returncode == 2
 
 

@@ -445,4 +445,4 @@ def test_authority_of_other_spacecraft(heliotorque, dist, tmp_path):
 def test_what_a_study_does_not_take_is_named(heliotorque, dist, tmp_path, name, options, said):
     command = [heliotorque, "study", name, "--quiet", "--dist", dist, "--output", tmp_path, *options]
     run = subprocess.run(command, capture_output=True, text=True, encoding="utf-8")
-    assert run.returncode == 1 and said in run.stderr, run.stderr
+    assert run.returncode == 2 and said in run.stderr, run.stderr

@@ -34,9 +34,6 @@ use tables::output::{self, Known, LimitChecks, Origin, Outputs, VisitTable};
 /// Warnings of an FMU that are shown without `--log`.
 const MAX_WARNINGS: usize = 20;
 
-/// Endings of the files that a run writes: table, picture.
-const FORMATS: [&str; 2] = ["csv", "svg"];
-
 /// Why a run ends before its stop.
 const LOST_READER: &str = "nobody reads the standard output any more";
 
@@ -65,7 +62,7 @@ impl Prepared {
     /// # Errors
     /// Whatever is refused, by the flag or the mission's line.
     pub fn new(arguments: &Run) -> Result<Self, Box<dyn Error>> {
-        by_ending(&arguments.output, FORMATS)?;
+        by_ending(&arguments.output, options::FORMATS)?;
         let simulated = Simulated::new(arguments)?;
         let (subject, packed) = simulated.open()?;
         subject.check_options(&simulated.run)?;

@@ -5,6 +5,9 @@ use std::path::PathBuf;
 use inputs::values::Instant;
 use systems::{FirstExchange, Master};
 
+/// Endings of the files that a run writes: table, picture.
+pub(super) const FORMATS: [&str; 2] = ["csv", "svg"];
+
 /// Request of `heliotorque run`.
 #[derive(Clone, Debug, Default)]
 pub struct Run {

@@ -15,7 +15,11 @@ use model_description::{Description, VariableRole};
 use systems::{FirstExchange, Master};
 use tables::output::{OutputFile, Plot, Requested};
 
-use super::{FORMATS, options::Run, simulated::Simulated, subject::Subject};
+use super::{
+    options::{FORMATS, Run},
+    simulated::Simulated,
+    subject::Subject,
+};
 
 /// Arguments resolved for an FMU or a system.
 pub struct Settings {

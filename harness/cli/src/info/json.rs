@@ -5,7 +5,7 @@ use model_description::{Description, VariableKind, value};
 use serde_json::{Map, Value, json};
 use systems::System;
 
-use super::causality;
+use super::causality::causality;
 
 /// Variables at these positions, and the items of the options that they take.
 fn variables(description: &Description, positions: &[usize]) -> (Vec<Value>, Map<String, Value>) {

@@ -1,5 +1,6 @@
 //! `heliotorque info`: what an FMU is, takes and gives; what a system joins.
 
+mod causality;
 mod experiment;
 mod json;
 mod system;
@@ -13,11 +14,12 @@ use inputs::{
     kind, values,
     variables::{VariableRow, rows, selected, start_text, warn_of_repeated},
 };
-use model_description::{Causality, Description, ScalarVariable, SimpleTypeKind, Variability, VariableKind};
+use model_description::{Causality, Description, ScalarVariable, SimpleTypeKind, VariableKind};
 use packing::{carried, manual::standard};
 use systems::System;
 
 use crate::patience::Patience;
+use causality::{CAUSALITIES, causality};
 use experiment::times;
 
 /// `heliotorque info`.
@@ -169,16 +171,6 @@ fn platforms<'a>(libraries: impl Iterator<Item = &'a Path>) -> String {
     names.join(", ")
 }
 
-/// Causalities in reading order, in words.
-const CAUSALITIES: [(Causality, &str); 6] = [
-    (Causality::Parameter, "parameter"),
-    (Causality::CalculatedParameter, "calculated parameter"),
-    (Causality::Input, "input"),
-    (Causality::Output, "output"),
-    (Causality::Local, "local"),
-    (Causality::Independent, "independent"),
-];
-
 fn count_by_causality(description: &Description) -> String {
     let parts = CAUSALITIES.into_iter().filter_map(|(causality, name)| {
         let count = description.variables.iter().filter(|variable| variable.causality == causality).count();
@@ -272,17 +264,6 @@ fn below([name, causality, start, unit]: &[String; 4], description: &str, column
     }
     lines.retain(|line| !line.trim().is_empty());
     lines.join("\n")
-}
-
-/// Causality, with what the variability adds to it.
-fn causality(variable: &ScalarVariable) -> String {
-    let name = CAUSALITIES.iter().find(|(it, _)| *it == variable.causality).map_or("", |(_, name)| name);
-    match (variable.causality, variable.variability) {
-        (Causality::Parameter, Variability::Tunable) => "tunable parameter".to_owned(),
-        (_, Variability::Constant) => format!("constant {name}"),
-        (Causality::Input | Causality::Output, Variability::Discrete) => format!("{name}, discrete"),
-        _ => name.to_owned(),
-    }
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use files::{
-    Destination,
+    Destination, is_stdout,
     outcome::{self, Answer, Outcome},
 };
 use inputs::ending::check_ending;
@@ -174,12 +174,11 @@ pub(crate) fn run(arguments: &New) -> Outcome {
         Destination::open(path, "FILE", &[])
     };
     if let Some(kind) = arguments.schema {
-        let path = given.unwrap_or(Path::new("-"));
-        return outcome::written(
-            open(path)?,
-            format!("{}\n", kind.text().trim_end()).as_bytes(),
-            &format!("{}: written", path.display()),
-        );
+        let text = format!("{}\n", kind.text().trim_end());
+        let Some(path) = given.filter(|path| !is_stdout(path)) else {
+            return outcome::printed(text.trim_end());
+        };
+        return outcome::written(open(path)?, text.as_bytes(), &format!("{}: written", path.display()));
     }
     let Some(kind) = arguments.kind else { return Err("allowed: a kind of file: see --help".into()) };
     let content = kind.content();

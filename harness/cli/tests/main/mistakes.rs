@@ -165,7 +165,8 @@ fn every_typical_mistake_is_reported_with_file_place_finding_and_remedy() {
         let is_refused = matches!(output.status.code(), Some(1 | 2));
         if is_refused {
             reported += 1;
-            assert!(printed.contains(".toml") || printed.contains(&name), "{block}\n{printed}");
+            let names = [".toml", &name, " for '--"];
+            assert!(names.iter().any(|it| printed.contains(it)), "{block}\n{printed}");
             assert!(!printed.contains(shown(scratch.path())), "{printed}");
         }
         let input = block.lines().filter(|line| !line.starts_with(PRINTED) && !line.is_empty());

@@ -15,16 +15,32 @@ use physics::{
 };
 use toml::Table;
 
-use super::{
-    Judged,
-    figures::{self, Sunlight},
-};
+use super::figures::{self, Sunlight};
 use crate::{
     assembly::{
         Parts, Source, assemble, can_read_map, common_keys, description, reference_flight, unused_map,
     },
     pointing,
 };
+
+/// Verdict on a file.
+#[derive(Debug)]
+pub enum Judged {
+    /// Taken, with warnings.
+    Taken {
+        /// Figures, as text.
+        summary: String,
+        /// Warnings, a sentence each.
+        warnings: Vec<String>,
+    },
+    /// Refused as a file of a kind.
+    Refused {
+        /// Problems, a line each.
+        problems: String,
+        /// The kind.
+        kind: String,
+    },
+}
 
 /// Text of the spacecraft that models have by default.
 pub const DEFAULT_SPACECRAFT: &str = physics::spacecraft::MESSENGER_TOML;
