@@ -1,58 +1,57 @@
-//! The shape of a leg file.
+//! The keys of a leg file.
+#![allow(non_snake_case, reason = "keys are named as in the file")]
 
 use serde::Deserialize;
 
-use super::schema::{Number, Vector};
-use crate::reading::WrittenAs;
+use crate::reading::{
+    At, InputFile,
+    quantities::{Date, Length, Moment, Position, Revolutions, Turn, Velocity},
+    tables, words,
+};
 
+tables! {
 /// A leg: the place and date at which it begins, and the encounter with a planet that it leads to. Lengths, speeds and angles are SI
 /// numbers or strings with a unit.
-#[derive(Debug, Deserialize, schemars::JsonSchema)]
-#[schemars(title = "heliotorque leg")]
-#[serde(rename_all = "camelCase", deny_unknown_fields)]
-pub struct LegDescription {
+struct LegKeys makes #[derive(Clone, Debug)] pub struct LegValues {
     /// The mission: spacecraft, values, timeline, with orbit.center sun, orbit.dynamics nBody and encounter.body. The path is relative to
     /// this file.
-    pub mission: String,
+    mission: At<InputFile>,
     /// Where and when it begins.
-    pub depart: DepartDescription,
+    depart: DepartKeys,
     /// The encounter.
-    pub arrive: ArriveDescription,
+    arrive: ArriveKeys,
 }
 
 /// Where and when the leg begins.
-#[derive(Debug, Deserialize, schemars::JsonSchema)]
-#[serde(rename_all = "camelCase", deny_unknown_fields)]
-pub struct DepartDescription {
+struct DepartKeys makes #[derive(Clone, Debug)] pub struct Departure {
     /// The date; the mission's start unless given.
-    pub at: Option<WrittenAs<Number>>,
+    at: Option<At<Date>>,
     /// The place from the Sun, EME2000.
-    pub position: WrittenAs<Vector>,
+    position as position_m: At<Position>,
     /// The velocity before the departure, EME2000: the delta-v of the departure is reported. It says, too, in which sense the leg goes
     /// around the Sun; as planets do unless given.
-    pub velocity: Option<WrittenAs<Vector>>,
+    velocity as velocity_before_m_s: Option<Velocity>,
 }
 
 /// The encounter.
-#[derive(Debug, Deserialize, schemars::JsonSchema)]
-#[serde(rename_all = "camelCase", deny_unknown_fields)]
-pub struct ArriveDescription {
+struct ArriveKeys makes #[derive(Clone, Debug)] pub struct Arrival {
     /// The planet, the mission's encounter.body.
-    pub body: ArrivalBody,
+    body: At<ArrivalBody>,
     /// When the closest approach shall be: a date or simulation time.
-    pub at: WrittenAs<Number>,
+    at: At<Moment>,
     /// Altitude of the closest approach, as it is simulated; beside `angle`, instead of `bT` and `bR`.
-    pub altitude: Option<WrittenAs<Number>>,
+    altitude as altitude_m: Option<At<Length>>,
     /// Angle of B from T toward R.
-    pub angle: Option<WrittenAs<Number>>,
+    angle as angle_rad: Option<At<Turn>>,
     /// Component of B along T, of the hyperbola that osculates encounter.leadTime (6 h) before the closest approach.
-    pub b_t: Option<WrittenAs<Number>>,
+    bT as b_t_m: Option<At<Length>>,
     /// Component of B along R.
-    pub b_r: Option<WrittenAs<Number>>,
-    /// Whole revolutions about the Sun; 0 unless given.
-    pub revolutions: Option<WrittenAs<u32>>,
+    bR as b_r_m: Option<At<Length>>,
+    /// Whole revolutions about the Sun.
+    revolutions: At<Revolutions> = 0,
     /// Which of the two arcs with so many revolutions.
-    pub branch: Option<ArcBranch>,
+    branch: Option<ArcBranch>,
+}
 }
 
 /// A planet of an encounter.
@@ -89,3 +88,5 @@ pub enum ArcBranch {
     /// The one with the larger x.
     Right,
 }
+
+words!(ArrivalBody, ArcBranch);

@@ -1,68 +1,72 @@
-//! The shape of a mission file.
+//! The keys of a mission file.
 
-use std::collections::BTreeMap;
+use super::inputs::InputsKey;
+use crate::reading::{
+    At, InputFile, Named, OutputPath,
+    quantities::{Bound, Moment, Setting, Span},
+    tables,
+};
 
-use serde::Deserialize;
-
-use super::schema::{Inputs, Number, Time};
-use crate::reading::{Written, WrittenAs};
-
+tables! {
 /// A mission: what is simulated, when, with which values, and what is recorded. Paths are relative to the file.
-#[derive(Debug, Deserialize, schemars::JsonSchema)]
-#[schemars(title = "heliotorque mission")]
-#[serde(deny_unknown_fields)]
-pub struct MissionDescription {
+struct MissionKeys makes #[derive(Clone, Debug)] pub struct MissionValues {
     /// The spacecraft's or spinner's file, which is packed for the run.
-    pub spacecraft: Option<String>,
+    spacecraft: Option<InputFile>,
     /// The model: MomentumPlant, SpinPlant, Guidance, DisturbanceTorque; otherwise MomentumPlant, or the one that takes the
     /// spacecraft's file.
-    pub model: Option<String>,
+    model: Option<At<String>>,
     /// An FMU, or a system (SSP), that is packed already; instead of spacecraft and model.
-    pub fmu: Option<String>,
+    fmu: Option<InputFile>,
     /// Commands, positions of panels and events over time, a TOML file, for models that take one: MomentumPlant, Guidance.
-    pub timeline: Option<String>,
+    timeline: Option<InputFile>,
     /// Positions over time, a TOML file, for models that take one.
-    pub ephemeris: Option<String>,
+    ephemeris: Option<InputFile>,
     /// When the flight begins: a date that ends in UTC, Z, TDB, TT or TAI, or a Julian date ("2011-04-06T00:00:00 UTC"), which is then simulation time 0; or
     /// simulation time, in s or with a unit ("10 d").
-    pub start: Option<WrittenAs<Time>>,
+    start: Option<At<Moment>>,
     /// When it ends: a date, if `start` is one; or simulation time.
-    pub stop: Option<WrittenAs<Time>>,
+    stop: Option<At<Moment>>,
     /// Communication step, in s or with a unit ("60 s").
-    pub step: Option<WrittenAs<Time>>,
+    step as step_s: Option<Span>,
     /// Variables to record: names, vectors, patterns with * for outputs; otherwise every output.
-    pub record: Option<Vec<String>>,
+    record: Option<Vec<At<String>>>,
     /// Record the step nearest to each multiple of this time, in s or with a unit; otherwise every step.
-    pub every: Option<WrittenAs<Time>>,
+    every as every_s: Option<Span>,
     /// The CSV file of what is recorded.
-    pub output: Option<String>,
+    output: Option<OutputPath>,
     /// Pictures.
-    pub plot: Option<Vec<PlotDescription>>,
+    plot as plots: Vec<PlotKeys> => |_| Vec::new(),
     /// Parameters and start values by name, in quotes; they win over the spacecraft file's `[start]`.
-    pub set: Option<BTreeMap<String, Written>>,
+    set as sets: Named<Setting> => |_| Vec::new(),
     /// Inputs over time: a CSV file as `run --input` takes; or a table of names, in quotes, each with a value that stays, or rows
     /// of a time and a value (for a vector, all of its values). Between rows continuous inputs are interpolated and others held.
-    pub inputs: Option<WrittenAs<Inputs>>,
+    inputs: Option<InputsKey>,
     /// Bounds by name, in quotes, judged at every time that is recorded; a run that breaks one ends with status 1.
-    pub limits: Option<BTreeMap<String, LimitDescription>>,
+    limits: Named<LimitKeys> => |_| Vec::new(),
+} rules {
+    AnyOf spacecraft model fmu: "no key `spacecraft`",
+        "spacecraft = \"my.toml\", or fmu = \"My.fmu\", or model = \"MomentumPlant\" for the model's own spacecraft";
+    Excludes spacecraft => fmu: "`spacecraft` beside `fmu`", "one of them: the FMU has its own, packed with it";
+    Excludes model => fmu: "`model` beside `fmu`", "one of them: the FMU has its own, packed with it";
+    Excludes timeline => fmu: "`timeline` beside `fmu`", "one of them: the FMU has its own, packed with it";
+    Excludes ephemeris => fmu: "`ephemeris` beside `fmu`", "one of them: the FMU has its own, packed with it";
 }
 
 /// A picture.
-#[derive(Debug, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct PlotDescription {
+struct PlotKeys makes #[derive(Clone, Debug)] pub struct Plot {
     /// The SVG file.
-    pub file: String,
+    file: OutputPath,
     /// What it shows, named as in `record`; otherwise everything recorded.
-    pub names: Option<Vec<String>>,
+    names: Option<Vec<At<String>>>,
 }
 
 /// Bounds of a number, at least one.
-#[derive(Debug, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct LimitDescription {
+struct LimitKeys makes #[derive(Clone, Debug)] pub struct Bounds {
     /// The smallest value that is kept, in SI or with a unit.
-    pub min: Option<WrittenAs<Number>>,
+    min: Option<Bound>,
     /// The largest.
-    pub max: Option<WrittenAs<Number>>,
+    max: Option<Bound>,
+} rules {
+    AnyOf min max: "no bound", "min, max or both";
+}
 }
