@@ -14,12 +14,12 @@ use super::variable::{Base, Variable, natural, variables};
 const STEPS_S: [f64; 2] = [1e-3, 1e-4];
 /// Least ratio of the change after the shorter step to that after the longer.
 const DIRECT: f64 = 0.5;
-/// What counts as a change, relative to the greatest component of the vector or its nominal value. Less is rounding: of
+/// Smallest change that counts, relative to the greatest component of the vector or its nominal value. Less is rounding: of
 /// epochs to 4e-9 s, through which the spacecraft moves, and of forces and torques fitted to 1e-10.
 const CHANGE: f64 = 1e-8;
 /// Values a known is changed to at a state.
 const CHANGES: usize = 2;
-/// Of the parameters this share is changed at a state.
+/// Fraction of the parameters that is changed at a state.
 const SHARE: f64 = 0.3;
 
 struct Silent;
@@ -268,7 +268,7 @@ impl<M: Model> Bench<M> {
         change / (CHANGE * both.fold(least, |size, value| size.max(value.abs())))
     }
 
-    /// What was seen and is not declared, a line an unknown. It counts from the second state on: an event may fall right on a
+    /// Dependencies seen and not declared, a line an unknown. They count from the second state on: an event may fall right on a
     /// communication point, but not twice.
     pub(super) fn undeclared(&self) -> String {
         let structure = &self.description.structure;
