@@ -104,7 +104,7 @@ impl<M: Model> Bench<M> {
     }
 
     pub(super) fn defaults(&self) -> Tables {
-        Tables::of(&self.start)
+        Tables::new(&self.start)
     }
 
     /// Writes a variable, if the spacecraft has it and a master may set it.
@@ -137,7 +137,7 @@ impl<M: Model> Bench<M> {
     pub(super) fn initialize(&self, tables: &Tables, start_s: f64) -> Option<Simulation<M>> {
         let mut values = tables.marked_where_other_than(&self.start).back();
         let state = M::initialize(&self.context(), &mut values, start_s).ok()?;
-        Some(Simulation { values: Tables::of(&values), state, time_s: start_s, changed: false })
+        Some(Simulation { values: Tables::new(&values), state, time_s: start_s, changed: false })
     }
 
     pub(super) fn step(&self, flight: &mut Simulation<M>, length_s: f64) -> Option<()> {
@@ -153,7 +153,7 @@ impl<M: Model> Bench<M> {
         M::step(&self.context(), &mut values, &mut flight.state, &step).ok()?;
         let (context, all) = (self.context(), OutputGroups::ALL);
         M::EXTENSIONS.write_outputs(&context, &mut values, &mut flight.state, all, end_s).ok()?;
-        flight.values = Tables::of(&values);
+        flight.values = Tables::new(&values);
         flight.time_s = end_s;
         flight.changed = false;
         Some(())
