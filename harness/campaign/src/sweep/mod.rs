@@ -1,7 +1,7 @@
 //! `heliotorque sweep`: many runs of a mission or an FMU whose values vary, and what is kept of each.
 
 mod histories;
-mod kept;
+mod recorded_columns;
 pub mod options;
 mod origin;
 mod outputs;

@@ -13,7 +13,7 @@ use isolation::{Frame, Link, Runs};
 use model_description::{BaseType, Description};
 
 use super::{
-    kept::Kept,
+    recorded_columns::RecordedColumns,
     resolved::{Campaign, simulated},
 };
 use crate::{Extremes, run::Subject};
@@ -122,7 +122,7 @@ fn simulate(
 /// Takes the rows of a run and sends what is kept of them.
 struct KeptRows<'a> {
     campaign: &'a Campaign,
-    kept: &'a Kept,
+    kept: &'a RecordedColumns,
     /// Base type and place in a row of every recorded variable.
     places: Vec<(BaseType, usize)>,
     link: &'a mut Link,
