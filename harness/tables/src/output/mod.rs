@@ -2,14 +2,14 @@
 
 pub mod csv;
 pub mod date_axis;
+pub mod display_context;
+pub mod display_form;
 pub mod exporter;
 pub mod file;
-pub mod display_context;
 pub mod limits;
 pub mod origin;
-pub mod scales;
-pub mod display_form;
 pub mod overwrite;
+pub mod scales;
 pub mod summary;
 pub mod svg;
 pub mod time_axis;
@@ -28,8 +28,8 @@ use exporter::Exporter;
 use summary::Summary;
 use svg::Svg;
 
-pub use file::OutputFile;
 pub use display_context::DisplayContext;
+pub use file::OutputFile;
 pub use limits::LimitChecks;
 pub use origin::{EPOCH_KEY, Origin, set_identity, set_times};
 pub use overwrite::{OutputKind, check as check_standing, open_beside};

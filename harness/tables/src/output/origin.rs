@@ -134,9 +134,12 @@ pub fn set_times(table: &mut Table, Times { start_s, stop_s, step_s }: Times) {
 /// Writes the name, version and origin of an FMU.
 pub fn set_identity(table: &mut Table, description: &Description) {
     let Description { model_name, guid, version, generation_tool, .. } = description;
-    for (key, text) in
-        [("name", Some(model_name)), ("guid", Some(guid)), ("version", version.as_ref()), ("made_by", generation_tool.as_ref())]
-    {
+    for (key, text) in [
+        ("name", Some(model_name)),
+        ("guid", Some(guid)),
+        ("version", version.as_ref()),
+        ("made_by", generation_tool.as_ref()),
+    ] {
         text.iter().for_each(|text| drop(table.insert(key, toml_edit::value(text.as_str()))));
     }
 }

@@ -7,9 +7,9 @@ use inputs::variables::vector;
 use model_description::Description;
 
 use super::{
+    display_form::DisplayForm,
     exporter::Exporter,
     scales::{ROUNDING, Scales},
-    display_form::DisplayForm,
 };
 
 /// Rows of the table beside files at most.
@@ -59,7 +59,8 @@ fn rows<'a>(described: &'a Description, recording: &'a Recording) -> Vec<Summary
         let name = vector(first).filter(|_| group.len() > 1).unwrap_or(first);
         let unit = DisplayForm::new(described, first).unit;
         let size = scales.size(first);
-        let components = group.iter().map(|(name, column)| texts(&DisplayForm::new(described, name), column, size));
+        let components =
+            group.iter().map(|(name, column)| texts(&DisplayForm::new(described, name), column, size));
         rows.push(SummaryRow { name, unit, components: components.collect() });
     }
     rows

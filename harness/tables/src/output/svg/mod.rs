@@ -12,10 +12,10 @@ use fmi::{Column, Recording};
 use model_description::{Causality, Description, ScalarVariable, VariableRole, value};
 
 use super::{
-    exporter::Exporter,
     display_context::DisplayContext,
-    scales::{ROUNDING, Scales, group},
     display_form::ANGLE_UNIT,
+    exporter::Exporter,
+    scales::{ROUNDING, Scales, group},
     time_axis::TimeAxis,
 };
 
@@ -90,10 +90,17 @@ impl Exporter for Svg {
 }
 
 /// The chart of a recording, and how many seconds a unit of its horizontal axis has; `option` is what chooses its variables.
-pub fn chart(described: &Description, recording: &Recording, context: &DisplayContext, option: &str) -> (Chart, f64) {
+pub fn chart(
+    described: &Description,
+    recording: &Recording,
+    context: &DisplayContext,
+    option: &str,
+) -> (Chart, f64) {
     let ends_s = recording.times_s.first().zip(recording.times_s.last());
-    let axis =
-        TimeAxis::over(ends_s.map_or([0.0; 2], |(first_s, last_s)| [*first_s, *last_s]), context.zero_epoch_s);
+    let axis = TimeAxis::over(
+        ends_s.map_or([0.0; 2], |(first_s, last_s)| [*first_s, *last_s]),
+        context.zero_epoch_s,
+    );
     let mut groups = groups(described, recording, context, axis.seconds);
     let constant = leave_out_constants(&mut groups);
     if !constant.is_empty() {
@@ -132,7 +139,12 @@ pub fn panel(described: &Description, recording: &Recording, variable: &str, sec
 }
 
 /// Groups of variables that are drawn together, in the order of the recording.
-fn groups(described: &Description, recording: &Recording, context: &DisplayContext, seconds: f64) -> Vec<Group> {
+fn groups(
+    described: &Description,
+    recording: &Recording,
+    context: &DisplayContext,
+    seconds: f64,
+) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     // The panel of a name and a label that has room for another line.
     let mut with_room: BTreeMap<(String, String), usize> = BTreeMap::new();

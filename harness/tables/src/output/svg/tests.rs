@@ -105,7 +105,9 @@ fn counts_and_flags_are_staircases_on_whole_numbers() {
     for panel in &chart.panels {
         assert!(panel.is_whole && panel.series[0].mark == Mark::Steps, "{}", panel.y_label);
     }
-    assert!(!drawn_chart(&[("x", Column::Real(vec![0.0, 1.0]))], &DisplayContext::default()).panels[0].is_whole);
+    assert!(
+        !drawn_chart(&[("x", Column::Real(vec![0.0, 1.0]))], &DisplayContext::default()).panels[0].is_whole
+    );
 }
 
 #[test]
@@ -169,7 +171,9 @@ fn enumerations_are_drawn_by_the_names_of_the_items_that_they_take() {
     let chart = drawn_chart(&[("mode", Column::Integer(vec![4, 1, 4]))], &DisplayContext::default());
     assert_eq!(chart.panels[0].names, [(1.0, "nadir".to_owned()), (4.0, "safe".to_owned())]);
     assert!(
-        drawn_chart(&[("count", Column::Integer(vec![4, 1]))], &DisplayContext::default()).panels[0].names.is_empty()
+        drawn_chart(&[("count", Column::Integer(vec![4, 1]))], &DisplayContext::default()).panels[0]
+            .names
+            .is_empty()
     );
 }
 
