@@ -76,9 +76,9 @@ fn attached() -> io::Result<(Link, Request)> {
     if words.len() != RING + RING_WORDS {
         return Err(io::Error::other("the standard input is not that of a parent"));
     }
-    let bytes: Vec<u8> =
-        words[RING..].iter().flat_map(|word| word.load(Ordering::Relaxed).to_le_bytes()).collect();
     let length = words[REQUEST].load(Ordering::Relaxed) as usize;
+    let request = words[RING..].iter().take(length.div_ceil(WORD));
+    let bytes: Vec<u8> = request.flat_map(|word| word.load(Ordering::Relaxed).to_le_bytes()).collect();
     let start = bytes.get(..length).and_then(|bytes| postcard::from_bytes(bytes).ok());
     let Start { parent, limits, columns: [output_columns, note_columns], request } =
         start.ok_or_else(|| io::Error::other("the standard input holds no request"))?;
