@@ -13,6 +13,7 @@ pub mod library;
 pub mod mission;
 pub mod plan;
 pub mod reading;
-pub mod schema;
+#[cfg(test)]
+mod schema;
 pub mod values;
 pub mod variables;

@@ -2,10 +2,7 @@
 
 use std::path::Path;
 
-use crate::{
-    home,
-    mission::{Mission, SpacecraftSource},
-};
+use crate::{home, mission::Mission};
 
 /// FMU of `--template`; otherwise the installed program's library, or a shipped FMU in `dist`.
 #[derive(Clone, Copy)]
@@ -34,7 +31,7 @@ impl<'a> Library<'a> {
         if has_library || simulated.extension().is_none_or(|extension| extension != "toml") {
             return Ok(None);
         }
-        if let SpacecraftSource::Fmu(_) = Mission::read(simulated)?.spacecraft_source {
+        if Mission::read(simulated)?.fmu.is_some() {
             return Ok(None);
         }
         let shown = simulated.display();

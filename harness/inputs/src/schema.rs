@@ -1,33 +1,23 @@
-//! Schemas of values that files write in more than one way, and the test that a committed schema is that of its types.
+//! Test that the committed schema of a file is the one that its tables give.
 
-/// A type that stands for such a value, with the schema of it.
-macro_rules! written {
-    ($(#[$doc:meta])* $name:ident, $schema:tt) => {
-        $(#[$doc])*
-        #[derive(Debug)]
-        pub struct $name;
-
-        impl schemars::JsonSchema for $name {
-            fn schema_name() -> std::borrow::Cow<'static, str> {
-                stringify!($name).into()
-            }
-
-            fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-                schemars::json_schema!($schema)
-            }
-        }
-    };
-}
-pub(crate) use written;
-
-/// Whether `fmu-src/resources` holds this schema under a name; `cargo xtask bless schema` writes it anew.
-#[cfg(test)]
-pub(crate) fn assert_in_step(name: &str, schema: &schemars::Schema) {
+/// Whether `fmu-src/resources` holds the schema of a kind of file; `cargo xtask bless schema` writes it anew.
+pub(crate) fn assert_in_step<T: schemars::JsonSchema>(kind: &str) {
+    let mut schema = schemars::schema_for!(T);
+    schema.insert("title".to_owned(), format!("heliotorque {kind}").into());
     let requested = format!("{:#}", schema.as_value());
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fmu-src/resources").join(name);
+    let resources = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fmu-src/resources");
+    let path = resources.join(format!("{kind}.schema.json"));
     if std::env::var_os("HELIOTORQUE_BLESS").is_some() {
         std::fs::write(&path, &requested).unwrap();
     }
     let found = std::fs::read_to_string(&path).unwrap();
     assert!(found == requested, "{} is out of step: cargo xtask bless schema", path.display());
+}
+
+#[test]
+fn every_schema_is_in_step() {
+    assert_in_step::<crate::mission::keys::MissionKeys>("mission");
+    assert_in_step::<crate::campaign::keys::CampaignKeys>("campaign");
+    assert_in_step::<crate::plan::keys::PlanKeys>("plan");
+    assert_in_step::<crate::leg::keys::LegKeys>("leg");
 }

@@ -20,6 +20,12 @@ pub enum Instant {
     Epoch(f64),
 }
 
+impl Default for Instant {
+    fn default() -> Self {
+        Self::Time(0.0)
+    }
+}
+
 impl Instant {
     /// Its time in a flight whose time 0 has this epoch; `None` for a date where it has none.
     pub fn time_s(self, zero_epoch_s: Option<f64>) -> Option<f64> {

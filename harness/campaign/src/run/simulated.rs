@@ -9,7 +9,7 @@ use files::{
 use fmi::Fmu;
 use inputs::{
     kind,
-    mission::{Inputs, Mission, SpacecraftSource},
+    mission::{Inputs, Mission},
     values::Instant,
 };
 use isolation::{Bounds, Relayed, Request, SMALL};
@@ -40,8 +40,8 @@ impl Simulated {
         }
         let mission = Mission::read(&arguments.fmu)?;
         let mut run = arguments.clone();
-        run.start = run.start.or(mission.start_s);
-        run.stop = run.stop.or(mission.stop_s.map(Instant::Time));
+        run.start = run.start.or(mission.start_s());
+        run.stop = run.stop.or(mission.stop_s().map(Instant::Time));
         run.step = run.step.or(mission.step_s);
         run.every = run.every.or(mission.every_s);
         if let (None, Some(Inputs::File(path))) = (&run.input, &mission.inputs) {
@@ -52,13 +52,13 @@ impl Simulated {
 
     /// The epoch of time 0 in s past J2000 TDB, where the mission begins at a date.
     pub fn zero_epoch_s(&self, start_s: f64) -> Option<f64> {
-        Some(self.mission.as_ref()?.epoch_s.as_ref()?.it - start_s)
+        Some(self.mission.as_ref()?.epoch_s()?.it - start_s)
     }
 
     /// Opens the FMU; a mission's files are packed into a temporary FMU.
     pub fn open(&self) -> Result<(Subject, Option<Scratch>), Box<dyn Error>> {
         let Some(mission) = &self.mission else { return Ok((Subject::open(&self.run.fmu)?, None)) };
-        if let SpacecraftSource::Fmu(path) = &mission.spacecraft_source {
+        if let Some(path) = &mission.fmu {
             if self.run.template.is_some() {
                 return Err(
                     "--template is for a mission with a spacecraft: its FMU has its own library".into()

@@ -52,7 +52,7 @@ pub use worker::run as run_in_child;
 /// Refusals of the command.
 pub fn checked(path: &Path, library: Library<'_>) -> Result<String, Box<dyn Error>> {
     let file = CampaignFile::read(path)?;
-    let unjudged = library.unjudged(&file.simulated)?;
+    let unjudged = library.unjudged(file.simulated())?;
     if unjudged.is_none() {
         Accepted::new(&file, library.template(), None)?;
     }
@@ -103,7 +103,7 @@ impl Accepted {
         let campaign = Campaign::resolve(file, simulated, &subject)?;
         let Subject::Fmu(fmu) = subject else {
             let found = "found a system, allowed: an FMU, or a mission of one";
-            return Err(format!("{}: {found}", file.simulated.display()).into());
+            return Err(format!("{}: {found}", file.simulated().display()).into());
         };
         let runs = resolved::range(runs, &campaign)?;
         campaign.check(file, fmu.description(), &runs)?;

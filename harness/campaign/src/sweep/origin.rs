@@ -115,7 +115,7 @@ pub(super) fn to_toml(
     let mut set = |key: &str, item: Item| drop(document.insert(key, item));
     set("program", toml_edit::value(concat!("heliotorque", " ", env!("CARGO_PKG_VERSION"))));
     set("campaign", toml_edit::value(file.file.display().to_string()));
-    set("simulated", toml_edit::value(file.simulated.display().to_string()));
+    set("simulated", toml_edit::value(file.simulated().display().to_string()));
     set_times(&mut document, campaign.settings.times);
     let mut set = |key: &str, item: Item| drop(document.insert(key, item));
     let whole = |number: u64| toml_edit::value(i64::try_from(number).unwrap_or(i64::MAX));
@@ -140,7 +140,7 @@ pub(super) fn to_toml(
     set("digests", Item::Table(table));
     let mut vary = Table::new();
     // By the names of the columns; a table of values has no other origin.
-    for (at, varied) in file.vary.iter().zip(campaign.design.varied()) {
+    for (at, varied) in file.distributions().zip(campaign.design.varied()) {
         let text = format!("{} {}", at.it.key, at.it.values.join(", "));
         vary.insert(&varied.name, toml_edit::value(text));
     }

@@ -185,7 +185,7 @@ fn percentiles(
 /// Refuses histories elsewhere than below the campaign.
 pub(super) fn check_histories(file: &CampaignFile) -> Result<(), String> {
     let home = file.file.parent().unwrap_or(Path::new(""));
-    match file.keep.histories.as_ref().filter(|at| !leads_below(&at.it, home)) {
+    match file.histories().filter(|at| !leads_below(&at.it, home)) {
         Some(at) => {
             let found =
                 format!("found {}, allowed: a folder in the campaign's own or below", at.it.display());
@@ -198,7 +198,7 @@ pub(super) fn check_histories(file: &CampaignFile) -> Result<(), String> {
 /// The folder of histories, made where it is not there; the files that stand in it are such tables.
 fn histories(started: &Started<'_>, inputs: &[&Path]) -> Result<Option<Histories>, String> {
     let Started { file, campaign, described, runs, .. } = started;
-    let Some(at) = &file.keep.histories else { return Ok(None) };
+    let Some(at) = file.histories() else { return Ok(None) };
     let home = file.file.parent().unwrap_or(Path::new(""));
     let created = OutputFolder::create(&at.it, HISTORIES).map_err(|error| file.problem(at, &error))?;
     let inputs = inputs.iter().map(|path| (*path).to_owned()).collect();

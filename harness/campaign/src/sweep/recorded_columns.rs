@@ -36,9 +36,8 @@ impl RecordedColumns {
         described: &Description,
         (simulated, settings): (&Simulated, &Settings),
     ) -> Result<Self, String> {
-        let keep = &file.keep;
         let find = |names: &[At<String>]| positions(file, described, names);
-        let histories = match (&keep.histories, &simulated.mission) {
+        let histories = match (file.histories(), &simulated.mission) {
             (None, _) => Vec::new(),
             // What the mission records, its pictures and limits among it.
             (Some(_), Some(_)) => settings.positions.clone(),
@@ -47,13 +46,15 @@ impl RecordedColumns {
         let mut kept = Self { histories: histories.len(), positions: histories, ..Self::default() };
         let is_number =
             |position: &usize| described.variables[*position].kind.base_type() != BaseType::String;
-        let finals = match &keep.finals {
-            Some(names) => find(names)?,
+        let finals = match &file.keep {
+            Some(keep) => find(&keep.finals)?,
             None => fmi::outputs(described).into_iter().filter(is_number).collect(),
         };
         kept.finals = finals.into_iter().map(|position| kept.column(position)).collect();
-        kept.extremes = find(&keep.extremes)?.into_iter().map(|it| kept.column(it)).collect();
-        kept.percentiles = find(&keep.percentiles)?.into_iter().map(|it| kept.column(it)).collect();
+        if let Some(keep) = &file.keep {
+            kept.extremes = find(&keep.extremes)?.into_iter().map(|it| kept.column(it)).collect();
+            kept.percentiles = find(&keep.percentiles)?.into_iter().map(|it| kept.column(it)).collect();
+        }
         for limit in &settings.limits {
             if let Some(position) = described.variables.iter().position(|it| it.name == limit.name) {
                 let column = kept.column(position);

@@ -5,8 +5,8 @@ use std::{error::Error, ops::Range, path::Path};
 use fmi::{RecordedPoints, Value, csv};
 use inputs::{
     campaign::{
-        description::SamplingWord,
         file::{CampaignFile, WrittenDistribution},
+        keys::SamplingWord,
     },
     epoch::Dates,
     mission::in_file,
@@ -44,7 +44,7 @@ pub(super) struct Campaign {
 /// The run that the runs of a campaign are like.
 pub(super) fn simulated(campaign: &CampaignFile, template: Option<&Path>) -> Result<Simulated, String> {
     Simulated::new(&Run {
-        fmu: campaign.simulated.clone(),
+        fmu: campaign.simulated().to_owned(),
         start: campaign.start_s,
         stop: campaign.stop_s.map(Instant::Time),
         step: campaign.step_s,
@@ -76,7 +76,7 @@ impl Campaign {
         let design = reader.design(varied, sampling)?;
         let kept = RecordedColumns::new(file, described, (&simulated, &settings))?;
         let points = |every_s: Option<f64>| RecordedPoints::new(&settings.times, every_s);
-        let percentile_points = points(file.keep.every_s)?;
+        let percentile_points = points(file.keep.as_ref().and_then(|keep| keep.every_s))?;
         let history_points = points(simulated.run.every)?;
         Ok(Self { settings, design, varied: positions, kept, percentile_points, history_points, simulated })
     }
@@ -128,7 +128,7 @@ impl Campaign {
                 if let Err(misfit) =
                     value::check(described, variable, &Value::of_f64(variable.kind.base_type(), number))
                 {
-                    let at = file.vary.iter().find(|at| at.it.name == variable.name);
+                    let at = file.distributions().find(|at| at.it.name == variable.name);
                     let place = at.map_or_else(
                         || format!("{}: {}", file.file.display(), variable.name),
                         |at| at.place(&file.file),
@@ -154,7 +154,7 @@ impl Reader<'_> {
 
     /// Varied values, by the names that the FMU has.
     fn varied(&self) -> Result<(Vec<Varied>, Sampling), String> {
-        let sampling = match self.file.sampling.it {
+        let sampling = match self.file.sampling {
             SamplingWord::Random => Sampling::Random,
             SamplingWord::LatinHypercube => Sampling::LatinHypercube,
             SamplingWord::Sobol => Sampling::Sobol,
@@ -163,10 +163,10 @@ impl Reader<'_> {
             SamplingWord::File => return self.table(),
         };
         let (mut varied, mut problems) = (Vec::new(), Vec::new());
-        for at in &self.file.vary {
+        for at in self.file.distributions() {
             match self.one(&at.it) {
                 Ok(one) => varied.push(one),
-                Err(what) => problems.push(self.file.problem(at, &what)),
+                Err(what) => problems.push(self.file.problem(&at, &what)),
             }
         }
         if problems.is_empty() { Ok((varied, sampling)) } else { Err(problems.join("\n")) }
@@ -203,15 +203,15 @@ impl Reader<'_> {
             .ok_or_else(|| format!("found {written:?}, allowed: a value"))
     }
 
-    fn one(&self, written: &WrittenDistribution) -> Result<Varied, String> {
-        let WrittenDistribution { name, key, values } = written;
+    fn one(&self, written: &WrittenDistribution<'_>) -> Result<Varied, String> {
+        let WrittenDistribution { name, key, values } = *written;
         let variable = self.variable(name)?;
         let is_real = variable.kind.base_type() == BaseType::Real;
-        if !is_real && !matches!(*key, "values" | "steps") {
+        if !is_real && !matches!(key, "values" | "steps") {
             return Err(format!("found {key} of a variable that is no Real, allowed: values"));
         }
         // The last one of `steps` is a count.
-        let numbers = if *key == "steps" { &values[..2] } else { &values[..] };
+        let numbers = if key == "steps" { &values[..2] } else { values };
         let numbers: Vec<f64> =
             numbers.iter().map(|it| self.number(variable, it)).collect::<Result<_, _>>()?;
         let ordered = |from: usize, to: usize| {
@@ -220,7 +220,7 @@ impl Reader<'_> {
                 format!("found {} and {}, allowed: the smaller one first", values[from], values[to])
             })
         };
-        let distribution = match *key {
+        let distribution = match key {
             "normal" => {
                 if numbers[1] <= 0.0 {
                     return Err(format!("found the standard deviation {}, allowed: above 0", values[1]));
@@ -323,10 +323,10 @@ impl Reader<'_> {
                     format!("{}: found no `runs`, allowed: {allowed}", file.file.display())
                 }
                 (DesignError::Kind { name, .. } | DesignError::Empty { found: name, .. }, _) => {
-                    let at = file.vary.iter().find(|at| name.starts_with(&at.it.name));
+                    let at = file.distributions().find(|at| name.starts_with(at.it.name));
                     at.map_or_else(
                         || format!("{}: {error}", file.file.display()),
-                        |at| file.problem(at, &error.to_string()),
+                        |at| file.problem(&at, &error.to_string()),
                     )
                 }
                 (DesignError::Correlation(_), _) => match file.correlations.first() {

@@ -31,7 +31,7 @@ fn summary(arguments: &Check) -> Result<(String, Vec<String>), Box<dyn std::erro
     let (_, messages) =
         settings.simulate_into(subject, &simulated.run, (&mut |_| {}, &cancel, None), &mut rows)?;
     let short = terminal::short;
-    let begin = simulated.mission.as_ref().and_then(|mission| epoch::date(mission.epoch_s.as_ref()?.it));
+    let begin = simulated.mission.as_ref().and_then(|mission| epoch::date(mission.epoch_s()?.it));
     let begin = begin.unwrap_or_else(|| format!("{} s", short(times.start_s)));
     let mut warnings = carried::timeline::warnings(subject.description(), sets, &subject.parts());
     warnings.extend(long_step(times));

@@ -65,8 +65,8 @@ fn every_new_file_works_unchanged() {
             let takes_no_template =
                 ["draw", "plan spin"].iter().any(|it| command.starts_with(it)) || command.contains(".fmu");
             let mut with = if takes_no_template { "" } else { " --template template.fmu" }.to_owned();
-            // More flights change nothing that is looked at, and take the time that `size` is given.
-            with += if command.starts_with("size ") { " --budget 0s" } else { "" };
+            // Longer and more flights change nothing that is looked at.
+            with += if command.starts_with("size ") { " --budget 0s --duration 10d" } else { "" };
             // Its options count in quotes for a shell.
             let reported = printed(&format!("{command}{with}").replace('\'', ""));
             if command.starts_with("check ") {

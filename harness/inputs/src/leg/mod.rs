@@ -1,9 +1,8 @@
 //! Leg files: departure and encounter of a leg.
 
 mod aimpoint;
-pub mod description;
 pub mod file;
-pub mod schema;
+pub mod keys;
 
 pub use aimpoint::FlybyAimpoint;
-pub use description::ArcBranch;
+pub use keys::ArcBranch;

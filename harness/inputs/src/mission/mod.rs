@@ -1,9 +1,11 @@
 //! Mission files: what is simulated, when, with which values, what is recorded and what it is judged by.
 
-pub mod description;
 pub mod file;
+pub mod inputs;
+pub mod keys;
 pub mod resolved;
-pub mod schema;
 
-pub use file::{Inputs, Mission, Plot, SpacecraftSource};
+pub use file::Mission;
+pub use inputs::Inputs;
+pub use keys::Plot;
 pub use resolved::{Limit, Resolved, in_file};

@@ -6,7 +6,7 @@ use fmi::{InputTable, Value};
 use model_description::{Causality, Description, ScalarVariable, VariableKind, value};
 use physics::toml::MOST_PROBLEMS;
 
-use super::file::{Bounds, Inputs, Mission};
+use super::{file::Mission, inputs::Inputs, keys::Bounds};
 use crate::{
     epoch::{self, Dates},
     reading::At,
@@ -53,7 +53,7 @@ impl Mission {
     ) -> Result<Resolved, String> {
         let settings = self.settings(described);
         let together = settings.iter().map(|(_, setting)| setting).chain(later).map(String::as_str);
-        let dates = Dates::new(described, together, start_s.or(self.start_s));
+        let dates = Dates::new(described, together, start_s.or(self.start_s()));
         let mut resolver = Resolver { mission: self, described, dates: &dates, problems: Vec::new() };
         let resolved = Resolved {
             sets: resolver.sets(),
@@ -69,7 +69,7 @@ impl Mission {
 
     /// Its values as `--set` would take them, the date of its start among them, each with the place that it stands in.
     pub fn settings(&self, described: &Description) -> Vec<(String, String)> {
-        let epochs = self.epoch_s.iter().flat_map(|at| {
+        let epochs = self.epoch_s().into_iter().flat_map(|at| {
             let starts = epoch::starts(described);
             starts.map(move |it| (at.place(&self.file), format!("{}={}", it.name, at.it)))
         });
@@ -114,7 +114,8 @@ impl<'m> Resolver<'m, '_> {
 
     fn sets(&mut self) -> Vec<(String, Value)> {
         let mut sets = Vec::new();
-        if let Some(at) = &self.mission.epoch_s {
+        let epoch_s = self.mission.epoch_s();
+        if let Some(at) = &epoch_s {
             sets.extend(epoch::starts(self.described).map(|it| (it.name.clone(), Value::Real(at.it))));
             if sets.is_empty() {
                 let found = "found a date, but the FMU has no epoch of the start";
@@ -129,9 +130,7 @@ impl<'m> Resolver<'m, '_> {
             }
             let (name, written) = &at.it;
             for (variable, value) in self.assigned(at, name, written) {
-                if self.mission.epoch_s.is_some()
-                    && epoch::starts(self.described).any(|it| it.name == variable.name)
-                {
+                if epoch_s.is_some() && epoch::starts(self.described).any(|it| it.name == variable.name) {
                     let found = format!("found {} beside a date in `start`", variable.name);
                     self.report(at, &format!("{found}, allowed: one of them"));
                     continue;
@@ -162,13 +161,14 @@ impl<'m> Resolver<'m, '_> {
     }
 
     fn inputs(&mut self) -> Option<InputTable> {
-        let Some(Inputs::Rows(inputs)) = &self.mission.inputs else { return None };
+        let Some(Inputs::Columns(inputs)) = &self.mission.inputs else { return None };
+        let zero_epoch_s = self.mission.epoch_s().map(|at| at.it);
         let mut table = InputTable::default();
         for at in inputs {
-            let (name, written) = &at.it;
+            let (name, column) = &at.it;
             let mut columns: Vec<(&str, Vec<(f64, Value)>)> = Vec::new();
-            for (time_s, values) in written {
-                let row = self.assigned(at, name, values);
+            for (time_s, values) in column.rows(zero_epoch_s) {
+                let row = self.assigned(at, name, &values);
                 if row.is_empty() {
                     columns.clear();
                     break;
@@ -177,7 +177,7 @@ impl<'m> Resolver<'m, '_> {
                     if columns.len() <= k {
                         columns.push((&variable.name, Vec::new()));
                     }
-                    columns[k].1.push((*time_s, value));
+                    columns[k].1.push((time_s, value));
                 }
             }
             for (name, rows) in columns {
@@ -202,8 +202,8 @@ impl<'m> Resolver<'m, '_> {
         positions
     }
 
-    fn limit(&mut self, at: &At<Bounds>) -> Vec<Limit> {
-        let Bounds { name, min, max } = &at.it;
+    fn limit(&mut self, at: &At<(String, Bounds)>) -> Vec<Limit> {
+        let (name, Bounds { min, max }) = &at.it;
         let found = fmi::select(self.described, name);
         let positions = found.map_err(|error| self.refuse(at, error)).unwrap_or_default();
         let mut limits = Vec::new();
@@ -225,7 +225,7 @@ impl<'m> Resolver<'m, '_> {
             if let (Some(low), Some(high)) = (min, max)
                 && low > high
             {
-                let [low, high] = [&at.it.min, &at.it.max].map(|it| it.as_deref().unwrap_or_default());
+                let [low, high] = [&at.it.1.min, &at.it.1.max].map(|it| it.as_deref().unwrap_or_default());
                 self.report(at, &format!("found min {low} above max {high}, allowed: a min up to max"));
             }
             limits.push(Limit { name: name.clone(), min, max, at: at.place(&self.mission.file) });

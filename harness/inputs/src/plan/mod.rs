@@ -1,5 +1,8 @@
 //! Plan files: a mission, how far arrays and attitude may go, and the momentum that they hold.
 
-pub mod description;
+mod command;
+pub mod encounter;
 pub mod file;
-pub mod schema;
+pub mod keys;
+
+pub use file::PlanFile;

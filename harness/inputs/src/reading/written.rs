@@ -1,6 +1,6 @@
 //! Values in a file, kept as they are written; each becomes the text that `--set` would take.
 
-use core::{fmt, marker::PhantomData, ops::Deref};
+use core::fmt;
 use std::collections::BTreeMap;
 
 use model_description::quantity;
@@ -38,6 +38,11 @@ impl Written {
             Self::List(items) => items.iter().map(Self::setting).collect::<Option<Vec<_>>>()?.join(","),
             Self::Table(_) => return None,
         })
+    }
+
+    /// The same of what is neither list nor table.
+    pub(crate) fn item(&self) -> Option<String> {
+        self.setting().filter(|_| !matches!(self, Self::List(_)))
     }
 
     /// The same of a number or a text alone.
@@ -85,18 +90,17 @@ impl Written {
     }
 }
 
-/// A value, or another one, whose schema is that of `S`.
-#[derive(Debug, Deserialize)]
-#[serde(transparent, bound(deserialize = "W: Deserialize<'de>"))]
-pub struct WrittenAs<S, W = Written>(pub W, PhantomData<S>);
-
-impl<S, W> Deref for WrittenAs<S, W> {
-    type Target = W;
-
-    fn deref(&self) -> &W {
-        &self.0
-    }
+macro_rules! from {
+    ($($type:ty => $variant:ident),+) => {$(
+        impl From<$type> for Written {
+            fn from(value: $type) -> Self {
+                Self::$variant(value.into())
+            }
+        }
+    )+};
 }
+
+from!(i32 => Integer, f64 => Number, &str => Text);
 
 impl fmt::Display for Written {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -108,32 +112,5 @@ impl fmt::Display for Written {
             }
             other => f.write_str(&other.setting().unwrap_or_else(|| "a table".to_owned())),
         }
-    }
-}
-
-impl schemars::JsonSchema for Written {
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        "Value".into()
-    }
-
-    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        schemars::json_schema!({
-            "description": "An SI number, a string with a unit (\"10 deg\"), an option's name, true or false; a list for a vector.",
-            "type": ["number", "string", "boolean", "array"]
-        })
-    }
-}
-
-impl<S: schemars::JsonSchema, W> schemars::JsonSchema for WrittenAs<S, W> {
-    fn inline_schema() -> bool {
-        S::inline_schema()
-    }
-
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        S::schema_name()
-    }
-
-    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        S::json_schema(generator)
     }
 }

@@ -4,10 +4,7 @@ use std::path::Path;
 
 use files::Entries;
 use fmi::{Binary, Described};
-use inputs::{
-    kind::FileKind,
-    mission::{Mission, SpacecraftSource},
-};
+use inputs::{kind::FileKind, mission::Mission};
 use model_description::Description;
 use physics::toml::nearest;
 
@@ -45,18 +42,17 @@ pub struct Parts<'a> {
 impl<'a> Parts<'a> {
     /// Takes the files that a mission names where no others are given; its values are left out.
     pub fn with_files_of(self, mission: &'a Mission) -> Result<Self, String> {
-        let SpacecraftSource::Files { spacecraft, model, timeline, ephemeris } = &mission.spacecraft_source
-        else {
+        if mission.fmu.is_some() {
             let file = mission.file.display();
             return Err(format!(
                 "{file}: found `fmu`, which is packed already, allowed: spacecraft or model"
             ));
-        };
+        }
         Ok(Self {
-            spacecraft: self.spacecraft.or(spacecraft.as_deref()),
-            model: self.model.or(model.as_ref().map(|model| model.it.as_str())),
-            timeline: self.timeline.or(timeline.as_deref()),
-            ephemeris: self.ephemeris.or(ephemeris.as_deref()),
+            spacecraft: self.spacecraft.or(mission.spacecraft.as_deref()),
+            model: self.model.or(mission.model.as_ref().map(|model| model.it.as_str())),
+            timeline: self.timeline.or(mission.timeline.as_deref()),
+            ephemeris: self.ephemeris.or(mission.ephemeris.as_deref()),
             origin: Some(mission),
             ..self
         })
@@ -64,11 +60,8 @@ impl<'a> Parts<'a> {
 
     /// Refuses a model that the library does not have, if the mission names it.
     fn check_model(&self, source: &Source) -> Result<(), String> {
-        let Some((mission, SpacecraftSource::Files { model: Some(model), .. })) =
-            self.origin.map(|it| (it, &it.spacecraft_source))
-        else {
-            return Ok(());
-        };
+        let named = self.origin.and_then(|mission| Some((mission, mission.model.as_ref()?)));
+        let Some((mission, model)) = named else { return Ok(()) };
         let models = source.binary().models()?;
         let names: Vec<&str> = models.iter().map(|model| model.model.as_str()).collect();
         if self.model != Some(&model.it) || names.contains(&model.it.as_str()) {
@@ -120,7 +113,7 @@ pub fn assemble(source: &Source, parts: &Parts<'_>) -> Result<Assembled, Box<dyn
         mission.resolve(&description, parts.sets, None)?;
         settings.extend(mission.settings(&description));
     }
-    if let Some(epoch) = parts.origin.filter(|_| parts.mission.is_none()).and_then(|it| it.epoch_s.as_ref())
+    if let Some(epoch) = parts.origin.filter(|_| parts.mission.is_none()).and_then(|it| it.epoch_s())
         && start::has_dates(&setup)
     {
         // Dates in the file count from the epoch that the mission starts at.
@@ -149,8 +142,8 @@ pub fn assemble(source: &Source, parts: &Parts<'_>) -> Result<Assembled, Box<dyn
     }
     if let Some(mission) = parts.mission {
         let mut experiment = description.default_experiment.unwrap_or_default();
-        experiment.start_time = mission.start_s.or(experiment.start_time);
-        experiment.stop_time = mission.stop_s.or(experiment.stop_time);
+        experiment.start_time = mission.start_s().or(experiment.start_time);
+        experiment.stop_time = mission.stop_s().or(experiment.stop_time);
         experiment.step_size = mission.step_s.or(experiment.step_size);
         description.default_experiment = Some(experiment);
     }

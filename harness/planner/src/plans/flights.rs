@@ -9,8 +9,8 @@ use campaign::run::{Run, Settings, Simulated};
 use files::Scratch;
 use fmi::{Fmu, InputTable, Instance, InstanceOptions, Options, Recording, Value};
 use inputs::{
-    mission::{Inputs, Mission, SpacecraftSource},
-    plan::file::PlanFile,
+    mission::{Inputs, Mission},
+    plan::PlanFile,
     reading::At,
     values,
     variables::{NEVER_N_M_S, elements, item, selected},
@@ -121,14 +121,14 @@ impl SimulatedMission {
     /// What is not as a plan needs it.
     pub(super) fn check_downlinks(&self) -> Result<(), Failure> {
         let shown = self.mission.file.display();
-        if let SpacecraftSource::Fmu(fmu) = &self.mission.spacecraft_source {
+        if let Some(fmu) = &self.mission.fmu {
             let found =
                 format!("found `fmu = {:?}`, which takes no other timeline", fmu.display().to_string());
             let allowed = "allowed: spacecraft or model, of which the plan's FMU is packed";
             return Err(format!("{shown}: {found}, {allowed}").into());
         }
-        if let Some(Inputs::Rows(rows)) = &self.mission.inputs
-            && let Some(at) = rows.iter().find(|at| at.it.0.starts_with("downlink."))
+        if let Some(Inputs::Columns(columns)) = &self.mission.inputs
+            && let Some(at) = columns.iter().find(|at| at.it.0.starts_with("downlink."))
         {
             let what = "found an input that the plan commands, allowed: none of downlink.*: inputs rule over timelines";
             return Err(at.problem(&self.mission.file, what).into());
@@ -149,9 +149,7 @@ impl SimulatedMission {
 
     /// The text of its timeline and what it says; `None` without one.
     pub(super) fn timeline(&self, spacecraft: &Spacecraft) -> Result<Option<(String, Timeline)>, Failure> {
-        let SpacecraftSource::Files { timeline: Some(path), .. } = &self.mission.spacecraft_source else {
-            return Ok(None);
-        };
+        let Some(path) = &self.mission.timeline else { return Ok(None) };
         let text = files::read_text(path)?;
         let shown = path.display().to_string();
         let timeline = Timeline::of_plant(&shown, &text, spacecraft).map_err(|error| error.to_string())?;

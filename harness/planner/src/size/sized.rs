@@ -5,7 +5,7 @@ use files::Scratch;
 use fmi::{Fmu, InputTable, Instance, Value};
 use inputs::{
     kind::FileKind,
-    mission::{Inputs, SpacecraftSource as Given},
+    mission::Inputs,
     variables::{assigned, item, start},
 };
 use model_description::Description;
@@ -80,11 +80,10 @@ impl SizedSpacecraft {
                 let simulated = Simulated::new(&run)?;
                 let (fmu, settings, folder) = Settings::of_fmu(&simulated, "a spacecraft or an FMU")?;
                 let is_of_its_time = simulated.mission.as_ref().is_some_and(|mission| {
-                    let Given::Files { timeline, ephemeris, .. } = &mission.spacecraft_source else {
-                        return false;
-                    };
-                    let has_table = matches!(mission.inputs, Some(Inputs::File(_)));
-                    timeline.is_some() || ephemeris.is_some() || has_table || settings.inputs.is_some()
+                    let has_table =
+                        matches!(mission.inputs, Some(Inputs::File(_))) || settings.inputs.is_some();
+                    mission.fmu.is_none()
+                        && (mission.timeline.is_some() || mission.ephemeris.is_some() || has_table)
                 });
                 let start_s = settings.times.start_s;
                 let stop_s = if is_of_its_time { settings.times.stop_s } else { start_s + YEAR_S };

@@ -1,12 +1,16 @@
 //! A full file in SI, and every mistake with its line.
 
+use nalgebra::Vector3;
+use physics::environment::dates;
+
 use super::*;
+use crate::values::Instant;
 
 fn parsed(text: &str) -> Result<LegFile, String> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("mission.toml"), "stop = 1\n").unwrap();
     let file = folder.path().join("leg.toml");
-    reading::parse(&file, text, |builder, it: LegDescription| builder.leg(&file, &it))
+    reading::parse(&file, text.to_owned(), judge)
 }
 
 const FULL: &str = "mission = \"mission.toml\"
@@ -26,19 +30,25 @@ branch = \"right\"
 #[test]
 fn units_are_read() {
     let leg = parsed(FULL).unwrap();
-    assert_eq!(leg.position_m.it, Vector3::new(0.5 * 149_597_870_700.0, 2e10, -3e3));
-    assert_eq!(leg.velocity_before_m_s, Some(Vector3::new(1e3, 0.0, -2.5)));
-    let (epoch_s, text) = leg.depart.unwrap().it;
+    assert_eq!(leg.depart.position_m.it, Vector3::new(0.5 * 149_597_870_700.0, 2e10, -3e3));
+    assert_eq!(leg.depart.velocity_before_m_s, Some(Vector3::new(1e3, 0.0, -2.5)));
+    let (epoch_s, text) = leg.depart.at.clone().unwrap().it;
     assert_eq!((epoch_s, text.as_str()), (dates::epoch_s("2008-03-19 TDB").unwrap(), "2008-03-19 TDB"));
-    assert_eq!(leg.arrive.it, Instant::Epoch(dates::epoch_s("2008-10-06T08:40:00 UTC").unwrap()));
-    assert_eq!((leg.body.it, leg.revolutions.it), ("mercury", Some((1, ArcBranch::Right))));
-    let FlybyAimpoint::Altitude { altitude_m, angle_rad } = leg.aimpoint.it else {
-        panic!("{:?}", leg.aimpoint)
+    assert_eq!(leg.arrive.at.it, Instant::Epoch(dates::epoch_s("2008-10-06T08:40:00 UTC").unwrap()));
+    assert_eq!(
+        (leg.arrive.body.it.word(), leg.arrive.revolutions()),
+        ("mercury", Some((1, ArcBranch::Right)))
+    );
+    let FlybyAimpoint::Altitude { altitude_m, angle_rad } = leg.aimpoint().it else {
+        panic!("{:?}", leg.aimpoint())
     };
     assert_eq!(altitude_m, 2e5);
     assert!((angle_rad - core::f64::consts::FRAC_PI_2).abs() < 1e-15);
     let components = FULL.replace("altitude = \"200 km\"\nangle = \"90 deg\"", "bT = \"-3100 km\"\nbR = 5e5");
-    assert_eq!(parsed(&components).unwrap().aimpoint.it, FlybyAimpoint::Plane { b_t_m: -3.1e6, b_r_m: 5e5 });
+    assert_eq!(
+        parsed(&components).unwrap().aimpoint().it,
+        FlybyAimpoint::Plane { b_t_m: -3.1e6, b_r_m: 5e5 }
+    );
 }
 
 #[test]

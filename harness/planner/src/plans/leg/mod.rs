@@ -68,14 +68,14 @@ pub fn checked(file: &Path, library: Library<'_>) -> Result<String, Failure> {
         values::Instant::Time(time_s) => format!("day {}", terminal::short(time_s / DAY_S)),
         values::Instant::Epoch(epoch_s) => dates::utc(epoch_s),
     };
-    let from = found.depart.as_ref().map_or("its start", |at| &at.it.1);
-    let revolutions = found.revolutions.it.map_or(0, |(number, _)| number);
+    let from = found.depart.at.as_ref().map_or("its start", |at| &at.it.1);
+    let revolutions = found.arrive.revolutions().map_or(0, |(number, _)| number);
     Ok(format!(
         "leads {} from {from} to {} at {}, {}, in {revolutions} revolutions{}",
         found.mission.it.display(),
-        found.body.it,
-        at(found.arrive.it),
-        aimpoint(&found.aimpoint.it),
+        found.arrive.body.it.word(),
+        at(found.arrive.at.it),
+        aimpoint(&found.aimpoint().it),
         unjudged.unwrap_or_default(),
     ))
 }
@@ -100,33 +100,33 @@ struct LegMission<'a> {
 impl<'a> LegMission<'a> {
     fn read(file: &'a LegFile) -> Result<Self, Failure> {
         let mission = Mission::read(&file.mission.it)?;
-        if let Some(Inputs::Rows(rows)) = &mission.inputs
-            && let Some(at) = rows.iter().find(|at| STARTS.iter().any(|name| at.it.0.starts_with(name)))
+        if let Some(Inputs::Columns(columns)) = &mission.inputs
+            && let Some(at) = columns.iter().find(|at| STARTS.iter().any(|name| at.it.0.starts_with(name)))
         {
             let what = "found an input that the leg gives, allowed: none of orbit.position, orbit.velocity";
             return Err(at.problem(&mission.file, what).into());
         }
-        if let (Some(at), None) = (&file.depart, &mission.epoch_s) {
+        if let (Some(at), None) = (&file.depart.at, mission.epoch_s()) {
             let what = "found a date, allowed: no such key, as the mission does not start at a date";
             return Err(file.problem(at, what).into());
         }
-        if let (values::Instant::Epoch(_), None) = (file.arrive.it, &mission.epoch_s) {
+        if let (values::Instant::Epoch(_), None) = (file.arrive.at.it, mission.epoch_s()) {
             let what = "found a date, allowed: simulation time, as the mission does not start at a date";
-            return Err(file.problem(&file.arrive, what).into());
+            return Err(file.problem(&file.arrive.at, what).into());
         }
         Ok(Self { file, mission })
     }
 
     /// Time of the arrival of a flight whose time 0 has this epoch, in s.
     fn arrival_s(&self, zero_epoch_s: Option<f64>) -> f64 {
-        self.file.arrive.it.time_s(zero_epoch_s).unwrap_or(f64::NAN)
+        self.file.arrive.at.it.time_s(zero_epoch_s).unwrap_or(f64::NAN)
     }
 
     fn text(&self, folder: &Path, velocity_m_s: &[f64]) -> Result<String, Failure> {
         let mut document: DocumentMut = mission_text::moved(&self.mission.file, folder)?;
-        let mut zero_epoch_s = self.mission.epoch_s.as_ref().map(|at| at.it);
-        let mut stop_s = self.mission.stop_s;
-        if let (Some(at), Some(before_s)) = (&self.file.depart, zero_epoch_s)
+        let mut zero_epoch_s = self.mission.epoch_s().map(|at| at.it);
+        let mut stop_s = self.mission.stop_s();
+        if let (Some(at), Some(before_s)) = (&self.file.depart.at, zero_epoch_s)
             && at.it.0 != before_s
         {
             document["start"] = value(&at.it.1);
@@ -146,7 +146,7 @@ impl<'a> LegMission<'a> {
             }
         }
         mission_text::set(&mut document, "orbit.source", value("inputs"));
-        let position_m = self.file.position_m.it;
+        let position_m = self.file.depart.position_m.it;
         mission_text::set(&mut document, STARTS[0], mission_text::numbers(position_m.as_slice()));
         mission_text::set(&mut document, STARTS[1], mission_text::numbers(velocity_m_s));
         Ok(document.to_string())
@@ -157,13 +157,13 @@ impl<'a> LegMission<'a> {
 fn check(file: &LegFile, mission: &SimulatedMission, arrival_s: f64) -> Result<(), Failure> {
     let shown = file.mission.it.display();
     for (name, allowed) in
-        [("orbit.center", "sun"), ("orbit.dynamics", "nBody"), ("encounter.body", file.body.it)]
+        [("orbit.center", "sun"), ("orbit.dynamics", "nBody"), ("encounter.body", file.arrive.body.it.word())]
     {
         let found = mission.values().item(name).unwrap_or("none");
         if found != allowed {
             let what = format!("{shown}: {name}: found {found}, allowed: {allowed}, for this leg");
             return Err(match name {
-                "encounter.body" => file.problem(&file.body, &what),
+                "encounter.body" => file.problem(&file.arrive.body, &what),
                 _ => file.problem(&file.mission, &what),
             }
             .into());
@@ -171,7 +171,7 @@ fn check(file: &LegFile, mission: &SimulatedMission, arrival_s: f64) -> Result<(
     }
     if arrival_s.is_nan() || arrival_s <= mission.start_s {
         return Err(file
-            .problem(&file.arrive, "found a time that is not after the departure, allowed: a later one")
+            .problem(&file.arrive.at, "found a time that is not after the departure, allowed: a later one")
             .into());
     }
     if arrival_s - mission.start_s > MAX_LEG_S {
@@ -180,7 +180,7 @@ fn check(file: &LegFile, mission: &SimulatedMission, arrival_s: f64) -> Result<(
             "found a time {years} years behind the departure, allowed: up to {} years behind it",
             terminal::short(MAX_LEG_S / (365.25 * DAY_S))
         );
-        return Err(file.problem(&file.arrive, &what).into());
+        return Err(file.problem(&file.arrive.at, &what).into());
     }
     if let Some(table) = &mission.inputs {
         let variables = &mission.fmu.description().variables;
@@ -227,6 +227,7 @@ pub fn run(options: &FilePlan) -> Outcome {
     let _folder = OutputFolder::create(&options.output, "--output")?;
     let Prepared { of_leg, mission, arrival_s, begun } = Prepared::new(&file, options.template.as_deref())?;
     let in_mission = |error: Failure| file.in_mission(&error.to_string(), &begun);
+    let body = file.arrive.body.it.word();
     let last = RefCell::new(String::new());
     let say = |doing: &str| {
         if !options.quiet && *last.borrow() != doing {
@@ -236,16 +237,16 @@ pub fn run(options: &FilePlan) -> Outcome {
     };
     say("the planet");
     let (leg, task, picture) = {
-        let start = (file.position_m.it, arrival_s);
-        let mut flights = LegFlights::begin(&mission, file.body.it, start, &say).map_err(in_mission)?;
+        let start = (file.depart.position_m.it, arrival_s);
+        let mut flights = LegFlights::begin(&mission, body, start, &say).map_err(in_mission)?;
         let task = LegTask {
-            position_m: file.position_m.it,
+            position_m: file.depart.position_m.it,
             start_s: mission.start_s,
             arrival_s,
-            aimpoint: file.aimpoint.it,
+            aimpoint: file.aimpoint().it,
             lead_s: flights.lead_s,
-            revolutions: file.revolutions.it,
-            velocity_before_m_s: file.velocity_before_m_s,
+            revolutions: file.arrive.revolutions(),
+            velocity_before_m_s: file.depart.velocity_before_m_s,
             mu_m3_s2: flights.mu_m3_s2,
             radius_m: flights.radius_m,
             tolerance_m: TOLERANCE_M,
@@ -260,12 +261,12 @@ pub fn run(options: &FilePlan) -> Outcome {
             Err(infeasible) => return outcome::no(&refusal(&file, &infeasible)),
         };
         let paths = flights.paths(&leg.velocity_m_s).map_err(in_mission)?;
-        let names = [spacecraft_of(&mission.fmu)?.name, capitalised(file.body.it)];
+        let names = [spacecraft_of(&mission.fmu)?.name, capitalised(body)];
         let picture = picture::svg([&names[0], &names[1]], (&task, &leg), &paths)?;
         (leg, task, picture)
     };
     let text = of_leg.text(&options.output, leg.velocity_m_s.as_slice())?;
-    let json = report::json((&task, &leg), file.body.it, mission.zero_epoch_s)?;
+    let json = report::json((&task, &leg), body, mission.zero_epoch_s)?;
     let contents = [(NAMES[0], text), (NAMES[1], picture), (NAMES[2], json)];
     let mut inputs = of_leg.mission.reads();
     inputs.push(&options.file);
@@ -281,13 +282,13 @@ pub fn run(options: &FilePlan) -> Outcome {
 fn refusal(file: &LegFile, error: &LegError) -> String {
     let what = error.to_string();
     match error {
-        LegError::Inside { .. } | LegError::Lost { .. } => file.problem(&file.aimpoint, &what),
-        LegError::Lambert(LambertError::TooShort { .. }) => file.problem(&file.revolutions, &what),
+        LegError::Inside { .. } | LegError::Lost { .. } => file.problem(&file.aimpoint(), &what),
+        LegError::Lambert(LambertError::TooShort { .. }) => file.problem(&file.arrive.revolutions, &what),
         LegError::Fast { .. } | LegError::Lambert(LambertError::Time { .. }) => {
-            file.problem(&file.arrive, &what)
+            file.problem(&file.arrive.at, &what)
         }
         LegError::Lambert(_) | LegError::Orbit(_) | LegError::Flight(_) => {
-            file.problem(&file.position_m, &what)
+            file.problem(&file.depart.position_m, &what)
         }
     }
 }
@@ -310,7 +311,7 @@ fn summary((task, leg): (&LegTask, &Leg), file: &LegFile, zero_epoch_s: Option<f
     let mut lines = vec![
         format!(
             "{}: closest approach {}, altitude {:.3} km",
-            capitalised(file.body.it),
+            capitalised(file.arrive.body.it.word()),
             at(found.arrival_s),
             1e-3 * found.altitude_m
         ),

@@ -2,7 +2,7 @@
 
 use inputs::{
     leg::FlybyAimpoint,
-    plan::file::{PlanFile, encounter::Flyby},
+    plan::{PlanFile, keys::Flyby},
 };
 use nalgebra::Vector3;
 
@@ -66,7 +66,7 @@ impl FlybyTask {
         let radius_m = values.real("planet.radius");
         let excess_m_s = first.encounter.plane.excess_speed_m_s;
         let gm_m3_s2 = force_model.gm_m3_s2;
-        let b_m = match flyby.aimpoint.as_ref().map(|at| at.it) {
+        let b_m = match flyby.aimpoint().map(|at| at.it) {
             None => [first.encounter.plane.b_t_m, first.encounter.plane.b_r_m],
             Some(FlybyAimpoint::Plane { b_t_m, b_r_m }) => [b_t_m, b_r_m],
             Some(FlybyAimpoint::Altitude { altitude_m, angle_rad }) => {
@@ -79,7 +79,7 @@ impl FlybyTask {
             }
         };
         let periapsis_m = periapsis_of_b_m(b_m[0].hypot(b_m[1]), gm_m3_s2, excess_m_s);
-        if let Some(at) = flyby.aimpoint.as_ref().filter(|_| periapsis_m < radius_m) {
+        if let Some(at) = flyby.aimpoint().filter(|_| periapsis_m < radius_m) {
             let what = format!(
                 "found B of {:.1} and {:.1} km along T and R, whose periapsis lies {:.1} km inside of {}, allowed: from {:.1} km on",
                 b_m[0] / 1e3,
@@ -88,7 +88,7 @@ impl FlybyTask {
                 force_model.body.data().name,
                 b_of_periapsis_m(radius_m, gm_m3_s2, excess_m_s) / 1e3,
             );
-            return Err(file.problem(at, &what).into());
+            return Err(file.problem(&at, &what).into());
         }
         let aimpoint = BPlaneAimpoint { b_m, arrival_s };
         Ok(Self { force_model, aimpoint, tolerance_m: flyby.tolerance_m, radius_m, first })

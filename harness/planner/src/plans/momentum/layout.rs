@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use inputs::{plan::file::PlanFile, reading::At};
+use inputs::{plan::PlanFile, reading::At};
 use physics::constants::DAY_S;
 
 use super::timeline::MissionTimeline;
@@ -83,8 +83,8 @@ pub(super) fn orbit_layout(
         angle_rad.unwrap_or(MAX_TILT_RAD).min(zone_rad - WITHIN_ZONE_RAD).max(0.0)
     };
     let control_bounds = ControlBounds {
-        azimuth_rad: tilt(file.azimuth_rad, zone_rad[0]),
-        elevation_rad: tilt(file.elevation_rad, zone_rad[1]),
+        azimuth_rad: tilt(file.tilt.azimuth_rad, zone_rad[0]),
+        elevation_rad: tilt(file.tilt.elevation_rad, zone_rad[1]),
         ..ControlBounds::default()
     };
     let sun_offset_rad = mission.values().real("panel[1].sunOffset");
@@ -106,19 +106,17 @@ pub(super) fn layout(
 ) -> Result<Layout, Failure> {
     let sides: Vec<f64> = sunlit.windmill_sides().collect();
     let has_side = sides.iter().any(|side| *side != 0.0);
-    if let (angle_rad, Some(at)) = &file.windmill_rad
-        && *angle_rad > 0.0
-        && !has_side
-    {
+    if file.windmill_rad.is_written && file.windmill_rad.it > 0.0 && !has_side {
         let what = "found panels without a side, allowed: 0, or windmill_side = 1 or -1 of [[panels]] in the spacecraft file";
-        return Err(file.problem(at, what).into());
+        return Err(file.problem(&file.windmill_rad, what).into());
     }
     let panels = 1..=sunlit.panels.len();
     let controls = panels.map(|number| mission.values().item(&format!("panel[{number}].control")));
     let arrays_are_frozen = controls.into_iter().all(|it| matches!(it, Some("sunOffset" | "timeline")));
     let mut contacts_s: Vec<[f64; 2]> = Vec::new();
-    for at in &file.contacts {
-        let [from_s, to_s] = at.it.map(|instant| mission.time_in_file_s(file, at, instant));
+    for at in &file.contacts.it {
+        let [from_s, to_s] =
+            [at.it.start, at.it.stop].map(|instant| mission.time_in_file_s(file, at, instant));
         let (from_s, to_s) = (from_s?, to_s?);
         // Dates and simulation times compare here alone.
         if contacts_s.last().is_some_and(|[_, before_s]| from_s < *before_s) {
@@ -147,13 +145,13 @@ pub(super) fn layout(
         occupied: timeline.occupied(mission.stop_s),
         downlinks_s: None,
         contacts_s,
-        contact_share: file.contact_share,
+        contact_share: file.contact_share.it,
         control_bounds: ControlBounds {
-            offset_rad: file.offset_rad,
-            windmill_rad: file.windmill_rad.0,
-            azimuth_rad: file.azimuth_rad.unwrap_or(0.0).min(zone_rad[0]),
-            elevation_rad: file.elevation_rad.unwrap_or(0.0).min(zone_rad[1]),
-            alternate: file.alternation,
+            offset_rad: file.offset_rad(),
+            windmill_rad: file.windmill_rad.it,
+            azimuth_rad: file.tilt.azimuth_rad.unwrap_or(0.0).min(zone_rad[0]),
+            elevation_rad: file.tilt.elevation_rad.unwrap_or(0.0).min(zone_rad[1]),
+            alternate: file.alternation.it,
             alternate_apart: file.flyby.is_some(),
         },
         in_force: timeline.in_force(&own),

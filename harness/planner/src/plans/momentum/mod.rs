@@ -15,7 +15,7 @@ use std::{cell::RefCell, path::Path, time::Instant};
 use ::files::OutputFolder;
 use drawing::{Chart, DrawingError, Picture};
 use files::outcome::{self, Answer, Outcome};
-use inputs::{library::Library, plan::file::PlanFile};
+use inputs::{library::Library, plan::PlanFile};
 use isolation::interrupt;
 use nalgebra::{Matrix4, Vector3};
 use physics::constants::DAY_S;
@@ -57,9 +57,9 @@ fn check(file: &PlanFile) -> Result<(), String> {
 fn opened<'a>(options: &'a FilePlan, file: &PlanFile, began: Instant) -> Result<Planned<'a>, Failure> {
     let prepared = Prepared::new(file, options.template.as_deref())?;
     if let Some(at) = &file.update {
-        let (updated, folder) = flyby::updated(file, at, &prepared.mission)?;
-        let begun = PlanFile { update: None, ..updated };
-        let mut planned = opened(options, &begun, began)?;
+        let (mut updated, folder) = flyby::updated(file, at, &prepared.mission)?;
+        updated.update = None;
+        let mut planned = opened(options, &updated, began)?;
         planned.keeps = Some(folder);
         planned.file.update = file.update.clone();
         return Ok(planned);
@@ -75,16 +75,23 @@ fn opened<'a>(options: &'a FilePlan, file: &PlanFile, began: Instant) -> Result<
         Some(layout) => layout,
         None => orbit_layout(&file, &mission, &timeline, &simulated)?,
     };
-    let momentum_n_m_s = file.limit_n_m_s.unwrap_or_else(|| mission.least_threshold_n_m_s());
+    let momentum_n_m_s = file.momentum.limit_n_m_s.unwrap_or_else(|| mission.least_threshold_n_m_s());
     let limit = Limit {
         momentum_n_m_s,
         size: mission.convention().into(),
-        margin: file.margin,
+        margin: file.momentum.margin,
         covariance: refit.map(|it| Matrix4::from(it.covariance).transpose()),
     };
     let least = if mission.is_in_orbit() { Least::Momentum } else { Least::Tilt };
     let target = flyby_task.as_ref().map(FlybyTask::target);
-    let task = PlanTask { layout, limit, dumps: file.dumps, least, budget_s: options.budget_s, target };
+    let task = PlanTask {
+        layout,
+        limit,
+        dumps: file.momentum.dumps as usize,
+        least,
+        budget_s: options.budget_s,
+        target,
+    };
     let last = RefCell::new(String::new());
     Ok(Planned {
         options,
@@ -122,12 +129,12 @@ pub fn checked(path: &Path, library: Library<'_>) -> Result<String, Failure> {
         found.mission.it.display(),
         days(found.freeze_s.it),
         days(found.window_s.it),
-        deg(found.windmill_rad.0),
-        tilt(found.azimuth_rad),
-        tilt(found.elevation_rad),
-        terminal::short(found.alternation),
-        deg(found.offset_rad),
-        found.contacts.len(),
+        deg(found.windmill_rad.it),
+        tilt(found.tilt.azimuth_rad),
+        tilt(found.tilt.elevation_rad),
+        terminal::short(found.alternation.it),
+        deg(found.offset_rad()),
+        found.contacts.it.len(),
         found.activities.len(),
         unjudged.unwrap_or_default(),
     ))
@@ -289,8 +296,8 @@ fn full_contacts(file: &PlanFile, planned: &Planned<'_>, found: &MomentumPlan) -
         &planned.simulated,
         f64::NEG_INFINITY,
     );
-    let at = file.contacts.iter().find(|at| {
-        let span = at.it.map(|instant| planned.mission.time_s(instant));
+    let at = file.contacts.it.iter().find(|at| {
+        let span = [at.it.start, at.it.stop].map(|instant| planned.mission.time_s(instant));
         matches!(span, [Some(from_s), Some(to_s)] if from_s < window.stop_s && to_s > window.start_s)
     })?;
     if needs.ok()? > 0.0 {

@@ -3,7 +3,7 @@
 use std::{cell::RefCell, path::Path, time::Instant};
 
 use ::files::Scratch;
-use inputs::plan::file::{Activity, PlanFile};
+use inputs::plan::{PlanFile, keys::Activity};
 use nalgebra::Vector3;
 
 use super::{

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use inputs::{plan::file::PlanFile, reading::At};
+use inputs::plan::PlanFile;
 use packing::assembly::spacecraft_of;
 use physics::guidance::timeline::Timeline;
 
@@ -41,7 +41,7 @@ impl Prepared {
     /// # Errors
     /// Whatever is refused, by the plan's line.
     pub(super) fn new(file: &PlanFile, template: Option<&Path>) -> Result<Self, Failure> {
-        let refit = file.refit.as_ref().map(|at| refit(file, at)).transpose()?;
+        let refit = file.momentum.refit.as_ref().map(|at| refit(file, at)).transpose()?;
         let sets: Vec<(String, Vec<f64>)> = refit.iter().flat_map(sets_of).collect();
         let settings = sets.iter().map(|(name, values)| {
             let values: Vec<String> = values.iter().map(f64::to_string).collect();
@@ -63,12 +63,12 @@ impl Prepared {
             check_arrays(&file, &mission)?;
         }
         let is_in_orbit = mission.is_in_orbit();
-        if let Some(at) = file.of_cruise.first().filter(|_| is_in_orbit) {
+        if let Some(at) = file.of_cruise().next().filter(|_| is_in_orbit) {
             let what = "found it, allowed: none in an orbit phase, whose downlinks' places of the Sun alone are planned";
-            return Err(file.problem(at, what).into());
+            return Err(file.problem(&at, what).into());
         }
         let spacecraft = spacecraft_of(&mission.fmu)?;
-        if let (Some(at), Some(refit)) = (&file.refit, &refit)
+        if let (Some(at), Some(refit)) = (&file.momentum.refit, &refit)
             && let Some(other) = refit.spacecraft.as_ref().filter(|other| **other != spacecraft.name)
         {
             let what = format!(
@@ -96,6 +96,6 @@ fn frozen_until_from(file: &PlanFile, mission: &SimulatedMission) -> Result<Plan
     let mut file = file.clone();
     let Some(from) = file.flyby.as_ref().and_then(|flyby| flyby.it.from.clone()) else { return Ok(file) };
     let frozen_s = mission.time_in_mission_s(&file, &from)? - mission.start_s;
-    file.freeze_s = At { it: frozen_s, key: from.key, line: from.line };
+    file.freeze_s = from.with(frozen_s);
     Ok(file)
 }

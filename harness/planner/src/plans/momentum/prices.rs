@@ -1,7 +1,7 @@
 //! Prices: what removing each planned command, or adding an activity, changes in momentum and dumps.
 
 use inputs::{
-    plan::file::{Activity, PlanFile},
+    plan::{PlanFile, keys::Activity},
     reading::At,
 };
 use nalgebra::Vector3;
@@ -27,7 +27,7 @@ pub(super) fn span_s(
     at: &At<Activity>,
     mission: &SimulatedMission,
 ) -> Result<[f64; 2], String> {
-    let [from_s, to_s] = at.it.span.map(|instant| mission.time_in_file_s(file, at, instant));
+    let [from_s, to_s] = [at.it.start, at.it.stop].map(|instant| mission.time_in_file_s(file, at, instant));
     let (from_s, to_s) = (from_s?, to_s?);
     if from_s < mission.start_s || to_s > mission.stop_s {
         return Err(file.problem(at, OUTSIDE));

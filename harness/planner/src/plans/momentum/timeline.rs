@@ -5,7 +5,7 @@
 
 use core::fmt::Write;
 
-use inputs::plan::file::Activity;
+use inputs::plan::keys::Activity;
 use nalgebra::Vector3;
 use packing::assembly::spacecraft_of;
 use physics::{

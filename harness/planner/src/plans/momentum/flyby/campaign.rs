@@ -2,7 +2,7 @@
 
 use fmi::{Recording, Value};
 use inputs::{
-    plan::file::encounter::MonteCarlo,
+    plan::keys::MonteCarlo,
     variables::{elements, numbers, vectors},
 };
 use isolation::interrupt;
@@ -54,7 +54,7 @@ pub(super) fn simulated(
     };
     let lead_s = flyby_task.force_model.lead_s;
     let times_s = rows_s([mission.start_s, mission.stop_s], arrival_s - lead_s);
-    let bar = terminal::progress(table.runs as u64, "runs", planned.options.quiet);
+    let bar = terminal::progress(table.runs, "runs", planned.options.quiet);
     let of = |run: u64| {
         let draw = spread.draw(table.seed, run);
         let sets = dispersed(&mission.values(), &draw, run);
@@ -69,8 +69,7 @@ pub(super) fn simulated(
         let found = recording.map_err(|error| error.to_string());
         (run, found.and_then(|it| outcome(&it, lead_s, flyby_task.aimpoint.b_m)))
     };
-    let found: Vec<(u64, Result<Outcome, String>)> =
-        (1..=table.runs as u64).into_par_iter().map(of).collect();
+    let found: Vec<(u64, Result<Outcome, String>)> = (1..=table.runs).into_par_iter().map(of).collect();
     bar.finish_and_clear();
     if interrupt::raised() {
         return Err("interrupted".into());

@@ -1,6 +1,6 @@
 //! Manoeuvres that would do what the plan does: approach manoeuvres with their errors, and a departure manoeuvre for what is left.
 
-use inputs::plan::file::{PlanFile, encounter::Compare};
+use inputs::plan::{PlanFile, keys::Compare};
 use nalgebra::Matrix2;
 
 use crate::{

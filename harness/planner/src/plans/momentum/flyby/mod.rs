@@ -6,7 +6,7 @@ mod picture;
 mod update;
 
 use inputs::{
-    plan::file::{PlanFile, encounter::Compare},
+    plan::{PlanFile, keys::Compare},
     reading::At,
 };
 use nalgebra::Vector2;

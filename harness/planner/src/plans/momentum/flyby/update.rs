@@ -4,7 +4,7 @@
 
 use ::files::Scratch;
 use inputs::{
-    plan::file::{PlanFile, encounter::Update},
+    plan::{PlanFile, keys::Update},
     reading::At,
     values::Instant,
     variables::{NEVER_N_M_S, elements, vectors},
