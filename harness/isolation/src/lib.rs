@@ -19,7 +19,7 @@ pub use channel::{Link, attach};
 pub use frame::{Frame, NOT_REQUESTED, Request, Runs};
 pub use limits::{ResourceLimits, SMALL};
 pub use printed::Shown;
-pub use relayed::{Relayed, is_child};
+pub use relayed::Relayed;
 pub use supervisor::{Bounds, ChildProcess, EndReason, Supervised};
 pub use system::end_all;
 

@@ -169,7 +169,7 @@ impl<'a> KeptRows<'a> {
         self.finals.fill(f64::NAN);
         self.extremes.fill(Extremes::default());
         self.broken = None;
-        self.link.send(&Frame::Begun(run, was_reset))
+        self.link.send(&Frame::RunStarted(run, was_reset))
     }
 
     fn end(&mut self, ended: Ended) -> Result<(), String> {
@@ -191,7 +191,7 @@ impl<'a> KeptRows<'a> {
             let extremes = extremes.flat_map(|it| [it.min, it.max, it.largest, it.time_of_largest_s]);
             self.finals.iter().copied().chain(extremes).collect()
         };
-        self.link.send(&Frame::Over(status as u8, numbers.into(), reason.into()))
+        self.link.send(&Frame::RunEnded(status as u8, numbers.into(), reason.into()))
     }
 
     fn check_limits(&mut self, row: &Row<'_>) {
