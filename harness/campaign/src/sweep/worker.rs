@@ -3,7 +3,7 @@
 use std::{
     error,
     path::Path,
-    sync::atomic::{AtomicBool, Ordering},
+    sync::atomic::Ordering,
 };
 
 use files::outcome::{Answer, Outcome};
@@ -101,9 +101,7 @@ fn simulate(
     let mut sets: Vec<(String, Value)> = campaign.settings.sets.clone();
     sets.extend(campaign.sets(fmu.description(), run));
     let cancel_word = rows.link.cancel_word();
-    let cancel = AtomicBool::new(false);
-    let mut check_cancel = |_: f64| cancel.store(cancel_word.load(Ordering::Relaxed) != 0, Ordering::Relaxed);
-    check_cancel(0.0);
+    let mut goes_on = |_: f64| cancel_word.load(Ordering::Relaxed) == 0;
     let options = Options {
         start_s: Some(times.start_s),
         stop_s: Some(times.stop_s),
@@ -112,8 +110,7 @@ fn simulate(
         sets,
         inputs: campaign.settings.inputs.as_ref(),
         record: Some(campaign.kept.positions.clone()),
-        progress: Some(&mut check_cancel),
-        cancel: Some(&cancel),
+        progress: Some(&mut goes_on),
         ..Options::default()
     };
     fmi::simulate_with(instance, options, rows)
