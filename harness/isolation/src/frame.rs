@@ -6,6 +6,8 @@ use files::outcome::Answer;
 use fmi::{Ended, Row, conformance::Finding};
 use serde::{Deserialize, Serialize};
 
+/// The only argument of a child process.
+pub const CHILD: &str = "in-child";
 /// Fault of a frame that was not requested.
 pub const NOT_REQUESTED: &str = "it sent what was not requested";
 

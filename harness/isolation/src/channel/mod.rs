@@ -206,8 +206,11 @@ impl Inbox {
             };
             let at = (self.tail % RING_WORDS as u64) as usize;
             let count = (whole - self.frame.len() / WORD).min(left).min(RING_WORDS - at);
-            for word in &self.words[RING + at..RING + at + count] {
-                self.frame.extend_from_slice(&word.load(Ordering::Relaxed).to_le_bytes());
+            let from = self.frame.len();
+            self.frame.resize(from + count * WORD, 0);
+            let (places, _) = self.frame[from..].as_chunks_mut();
+            for (place, word) in places.iter_mut().zip(&self.words[RING + at..]) {
+                *place = word.load(Ordering::Relaxed).to_le_bytes();
             }
             self.tail = self.tail.wrapping_add(count as u64);
             left -= count;
