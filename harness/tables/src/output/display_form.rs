@@ -20,7 +20,7 @@ pub(super) fn find<'a>(description: &'a Description, name: &str) -> Option<&'a S
 
 /// A recorded number's unit and form.
 #[derive(Default)]
-pub(super) struct Shown<'a> {
+pub(super) struct DisplayForm<'a> {
     /// The unit it is shown in.
     pub unit: &'a str,
     factor: f64,
@@ -32,7 +32,7 @@ pub(super) struct Shown<'a> {
     pub items: &'a [EnumerationItem],
 }
 
-impl<'a> Shown<'a> {
+impl<'a> DisplayForm<'a> {
     /// Returns how the variable of this name is shown.
     pub(super) fn new(description: &'a Description, name: &str) -> Self {
         let Some(variable) = find(description, name) else {

@@ -16,7 +16,7 @@ use physics::{
 
 /// Names and bounds.
 #[derive(Clone, Debug, Default)]
-pub struct Known {
+pub struct DisplayContext {
     names: BTreeMap<String, String>,
     bounds: BTreeMap<String, (String, f64)>,
     limits: BTreeMap<String, Vec<f64>>,
@@ -24,7 +24,7 @@ pub struct Known {
     pub zero_epoch_s: Option<f64>,
 }
 
-impl Known {
+impl DisplayContext {
     /// Context of an FMU or a system: each part by the prefix of its variables and the folder it is unpacked in, the values set before
     /// the run, and its limits.
     pub fn new(
@@ -144,7 +144,7 @@ mod tests {
         let parts = [("p.".to_owned(), folder.path().to_owned())];
         let limit =
             Limit { name: "p.wheel[1].speed".to_owned(), min: None, max: Some(3.0), at: String::new() };
-        let known = Known::new(&parts, &description, &[], &[limit]);
+        let known = DisplayContext::new(&parts, &description, &[], &[limit]);
         let spacecraft = Spacecraft::from_toml("", physics::spacecraft::MESSENGER_TOML).unwrap();
         assert_eq!(known.name("p.wheel[1].speed"), Some(spacecraft.wheels[0].name.as_str()));
         assert_eq!(known.name("p.plate[7].temperature"), Some("lid"));
@@ -155,7 +155,7 @@ mod tests {
         assert_eq!(bound_label("p.wheel[2].momentum", "p.wheel[2].capacity"), "capacity");
         assert_eq!(bound_label("sun.azimuth", "keepIn.azimuth"), "keepIn.azimuth");
         let set = [("p.dump.threshold[2]".to_owned(), Value::Real(7.0))];
-        let set = Known::new(&parts, &description, &set, &[]);
+        let set = DisplayContext::new(&parts, &description, &set, &[]);
         assert_eq!(set.bound("p.momentum.body[2]"), Some(("dump.threshold", 7.0)));
     }
 }

@@ -11,7 +11,7 @@ use crate::run::{Settings, Simulated};
 
 /// Recorded variables of a run. Columns are positions in `positions`.
 #[derive(Default)]
-pub(super) struct Kept {
+pub(super) struct RecordedColumns {
     /// Recorded variables, those of histories first.
     pub positions: Vec<usize>,
     /// How many of them histories have.
@@ -26,7 +26,7 @@ pub(super) struct Kept {
     pub limits: Vec<(usize, Limit)>,
 }
 
-impl Kept {
+impl RecordedColumns {
     /// Finds the variables of a campaign's `keep`, of its histories and limits.
     ///
     /// # Errors
