@@ -1,6 +1,5 @@
 //! `heliotorque check mission.toml`: whether a mission can be simulated; its first step is simulated.
 
-
 use campaign::run::{Prepared, Run, Settings, long_step};
 use fmi::Collector;
 use inputs::{epoch, kind::FileKind};
