@@ -470,9 +470,11 @@ fn downlinks_of_an_orbit_phase_hold_the_momentum() {
         "attitude.q[1]",
     ];
     let [alone, commanded, put_in] = ["orbit.toml", "out/mission.toml", "out/by-input.toml"].map(|mission| {
-        let simulated = folder.join("simulated.csv");
-        let mission = folder.join(mission);
-        run(&["run", shown(&mission), "--output", shown(&simulated), "--template", shown(&template)], 0);
+        let (mission, simulated) = (folder.join(mission), folder.join("simulated.csv"));
+        // Steps of a minute meet the input table.
+        let by_minute = ["run", shown(&mission), "--step", "1min", "--every", "10min"];
+        let rest = ["--output", shown(&simulated), "--template", shown(&template)];
+        run(&[&by_minute[..], &rest].concat(), 0);
         columns(&simulated, &names)
     });
     let length = |row: &Vec<f64>| row[..3].iter().map(|it| it * it).sum::<f64>().sqrt();
