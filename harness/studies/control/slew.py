@@ -28,9 +28,7 @@ NEVER_N_M_S = 1e6
 # The wheel that fails, and after which share of the slew's ideal duration.
 FAILED_WHEEL = 2
 FAILED_SHARE = 0.5
-BODY = [
-    *("attitude.q", "attitude.rate", "momentum.body", "control.saturated", "dump.active", "dump.count"),
-]
+BODY = [*("attitude.q", "attitude.rate", "momentum.body", "control.saturated", "dump.active", "dump.count")]
 
 HEADER = (
     "case | angle [deg] | settled [s] | by the limits [s] | overshoot [deg] | off the axis [deg] | rate [deg/s] | torque | "
@@ -94,12 +92,7 @@ class Plant:
 
     def start(self, slew, angle_rad):
         """At rest in the start attitude, which is held until the command jumps."""
-        settings = {
-            "attitude.source": "controlled",
-            "command.source": "inputs",
-            "start.q": self.q,
-            "command.q": self.q,
-        }
+        settings = {"attitude.source": "controlled", "command.source": "inputs", "start.q": self.q, "command.q": self.q}
         if slew.starts_full:
             settings["dump.threshold"] = [NEVER_N_M_S] * 3
             # The wheels take up the opposite of the body's momentum.

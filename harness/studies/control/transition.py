@@ -93,21 +93,11 @@ def comparison(loop, label, flight):
             agrees(PAPER_S[0] <= settled_s <= PAPER_S[1]),
         ),
         ("the same by the limits alone", "not printed", f"{limits.least_s(slew_rad):.0f} s", "-"),
-        (
-            "slew angles that take 70 to 100 s by the limits",
-            "not printed",
-            "{:.1f} to {:.1f} deg".format(*angles_deg),
-            "-",
-        ),
+        ("slew angles that take 70 to 100 s by the limits", "not printed", "{:.1f} to {:.1f} deg".format(*angles_deg), "-"),
         ("Sun from -Y in the estimated attitude, greatest", "0 deg: never leaves -Y", *off_sun(flight.estimate_q)),
         ("Sun from -Y in the true attitude, greatest", "0 deg", *off_sun(flight.q)),
         ("seconds outside the keep-in zone, estimated", "never", str(outside), agrees(outside == 0)),
-        (
-            "error in the last 300 s, greatest",
-            "not printed",
-            f"{brief(error_deg(flight)[-300:].max())} deg",
-            "-",
-        ),
+        ("error in the last 300 s, greatest", "not printed", f"{brief(error_deg(flight)[-300:].max())} deg", "-"),
         ("seconds with torque at its limit", "not printed", str(limited), "-"),
     ]
     return [[label, *row] for row in rows]

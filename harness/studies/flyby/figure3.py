@@ -43,10 +43,7 @@ def figure3(run):
         "Assumed too: state, mass, centre of mass and aim (messenger-flyby1.toml), the corridor. Costs lead back to the path 30 d behind "
         "the flyby, for flyby 2."
     )
-    intercepts = [
-        ("as planned", found.misses_m[0], None),
-        ("three days early", found.misses_m[1], found.covariance_m2),
-    ]
+    intercepts = [("as planned", found.misses_m[0], None), ("three days early", found.misses_m[1], found.covariance_m2)]
     write(
         run, "figure3", "B-plane at Mercury, flyby 1, arrays turned three days early", found.target, intercepts, (1.5, 3.0, 4.5)
     )

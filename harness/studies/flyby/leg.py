@@ -38,7 +38,9 @@ class Leg:
         self.run, self.flyby, self.stop_s = run, flyby, stop_s or flyby[1]
         file = file or MISSIONS / flyby[0]
         self.mission = tomlkit.parse(file.read_text(encoding="utf-8")).unwrap()
-        self.mission |= {key: str((file.parent / self.mission[key]).resolve()) for key in self.mission.keys() & {"spacecraft", "timeline"}}
+        self.mission |= {
+            key: str((file.parent / self.mission[key]).resolve()) for key in self.mission.keys() & {"spacecraft", "timeline"}
+        }
         self.mission |= {"stop": self.stop_s, "step": STEP_S}
 
     def changed(self, velocity_m_s=np.zeros(3), **settings):

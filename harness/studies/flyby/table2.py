@@ -12,11 +12,7 @@ from study import DAY_S, main
 from vectors import norm, unit
 
 # Printed approach and departure manoeuvres, total penalty (m/s), miss and altitude offset (km).
-PRINTED = {
-    "Earth": (1.3, 0.0, 1.7, 22.1, 1.0),
-    "Venus 1": (2.8, 35.7, 40.0, 36.0, -52.8),
-    "Venus 2": (0.8, 0.0, 1.0, 5.7, 1.4),
-}
+PRINTED = {"Earth": (1.3, 0.0, 1.7, 22.1, 1.0), "Venus 1": (2.8, 35.7, 40.0, 36.0, -52.8), "Venus 2": (0.8, 0.0, 1.0, 5.7, 1.4)}
 # Errors of execution, about each axis across and as a share of the size: printed.
 DIRECTION_RAD = np.radians(0.2)
 MAGNITUDE = 1e-3

@@ -34,10 +34,7 @@ def simulated(fmus, label):
         # -Y at the Sun and the camera at nadir: the camera stands as far sunward of +Z as nadir does.
         camera_rad = np.pi / 2.0 - angle_rad(places.to_sun_m, -places.position_m)
         held = camera_rad if CASES[label] else camera_rad[SLEW_S]
-        from_to = {
-            "pointing.scenario": ("downlink", "gimbal"),
-            "aimpoint.option": (None, "nadir"),
-        }
+        from_to = {"pointing.scenario": ("downlink", "gimbal"), "aimpoint.option": (None, "nadir")}
         items = {
             name: np.where(
                 is_slewed, guidance.item(name, after), guidance.item(name, before) if before else guidance.default(name)
@@ -73,18 +70,8 @@ def comparison(label, flight):
         ("Sun azimuth, greatest", "0 deg", *small(sun_azimuth_deg)),
         ("Sun elevation, greatest", "0 deg", *small(sun_elevation_deg)),
         ("slew angle", "not printed", f"{slew_deg:.3f} deg", "-"),
-        (
-            "Mercury azimuth / elevation after the slew",
-            "not printed",
-            "{:.2f} / {:.2f} deg".format(*mercury_deg[SLEW_S]),
-            "-",
-        ),
-        (
-            "camera angle after the slew",
-            "in range (-50 to 40 deg)",
-            f"{mdis_deg:.3f} deg",
-            agrees(-50.0 <= mdis_deg <= 40.0),
-        ),
+        ("Mercury azimuth / elevation after the slew", "not printed", "{:.2f} / {:.2f} deg".format(*mercury_deg[SLEW_S]), "-"),
+        ("camera angle after the slew", "in range (-50 to 40 deg)", f"{mdis_deg:.3f} deg", agrees(-50.0 <= mdis_deg <= 40.0)),
         ("samples changed by a constraint", "none", str(constrained), agrees(constrained == 0)),
     ]
     return [[label, *row] for row in rows]

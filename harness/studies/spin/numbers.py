@@ -45,12 +45,7 @@ def pulses(fmu):
             f"{planned_rad:.6f} rad planned, {moved_rad:.6f} rad simulated",
             verdict(rounds(moved_rad, 0.0095, 1e-4)),
         ],
-        [
-            "thruster time for 6 deg",
-            "11.02 s",
-            f"{total_s:.2f} s",
-            verdict(of_total, "paper divides by the rounded 0.0095 rad"),
-        ],
+        ["thruster time for 6 deg", "11.02 s", f"{total_s:.2f} s", verdict(of_total, "paper divides by the rounded 0.0095 rad")],
         ["half arc of a 32 ms pulse", "0.48 deg", f"{arc_deg:.2f} deg", verdict(rounds(arc_deg, 0.48, 0.01))],
         ["axis moved by one 32 ms pulse", "0.0176 deg", f"{pulse_deg:.5f} deg", verdict(rounds(pulse_deg, 0.0176, 1e-4))],
         [

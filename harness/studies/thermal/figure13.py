@@ -42,12 +42,7 @@ def figure13(run):
             ],
             ["greatest infrared, of solar", "about 25 %", f"{infrared * 100.0:.1f} %", agrees(abs(infrared - 0.25) < 0.03)],
             ["greatest recoil, of solar", "about 25 %", f"{thermal * 100.0:.1f} %", agrees(abs(thermal - 0.25) < 0.03)],
-            [
-                "greatest sum of magnitudes, of solar",
-                "up to 50 %",
-                f"{share.max() * 100.0:.1f} %",
-                agrees(share.max() < 0.505),
-            ],
+            ["greatest sum of magnitudes, of solar", "up to 50 %", f"{share.max() * 100.0:.1f} %", agrees(share.max() < 0.505)],
             ["greatest total", "order of 1e-6 m/s2", f"{brief(total, 2)} m/s2", agrees(5e-7 <= total < 2e-6)],
         ],
     )

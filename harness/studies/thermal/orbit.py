@@ -47,10 +47,7 @@ class Accelerations:
         turned_rad = np.append(0.0, np.cumsum(angle_rad(planet_m[:-1], planet_m[1:])))
         self.true_anomaly_deg = true_anomaly_deg + np.degrees(turned_rad)
 
-        inputs = {
-            "sun.positionBody": to_body(q, -planet_m - position_m),
-            "planet.positionBody": to_body(q, -position_m),
-        }
+        inputs = {"sun.positionBody": to_body(q, -planet_m - position_m), "planet.positionBody": to_body(q, -position_m)}
         settings = {"eclipse.method": "cone" if is_moving else "cylinder"}
         if belts:
             settings |= {"planetLight.method": "cells", "planetLight.belts": belts}
