@@ -1,7 +1,8 @@
 """Parts that all studies share: chosen cases, tables with verdicts, CSV files, figures, and calls of the program.
 
 A study is a program of its own, `<subject>/<name>.py`. The first line of its docstring names the paper and says what the
-study shows. It ends with `study.main(function)`; `main` reads the command line and hands the function a `Run`.
+study shows, the last paragraph is for `remark`. It ends with `study.main(function)`; `main` reads the command line and hands
+the function a `Run`.
 """
 
 import argparse
@@ -109,8 +110,8 @@ def mark(axes, values, label):
 class Run:
     """A study under way: its options, its FMUs, and what it leaves."""
 
-    def __init__(self, name, options):
-        self.name, self.options, self._fmus, self._folders = name, options, {}, []
+    def __init__(self, name, options, description=""):
+        self.name, self.options, self._description, self._fmus, self._folders = name, options, description, {}, []
 
     def folder(self):
         """A folder of its own that lasts as long as the study runs."""
@@ -198,6 +199,10 @@ class Run:
         """Prints a paragraph."""
         print(unsigned_zeros(text))
 
+    def remark(self):
+        """Prints the last paragraph of the study's docstring."""
+        self.line(self._description.rpartition("\n\n")[2].rstrip())
+
     def table(self, header, rows):
         """Prints a table."""
         rows = [columns(header), *([unsigned_zeros(cell) for cell in row] for row in rows)]
@@ -272,6 +277,6 @@ def main(study, **extra):
     try:
         if others:
             raise Failure(f"{name} does not take {others[0]}")
-        study(Run(name, options))
+        study(Run(name, options, program.__doc__))
     except Failure as failure:
         sys.exit(f"{path.stem}: {failure}")

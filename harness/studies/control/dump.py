@@ -1,4 +1,10 @@
-"""Paper 000: momentum dumps by pulses of thrusters beside the same dumps at once."""
+"""Paper 000: momentum dumps by pulses of thrusters beside the same dumps at once.
+
+Impulse: of the same dump at once, in commanded flight. Left over: between the momentum after the pulses and the target; the
+smallest pulse of a 4.4 N thruster is 20 ms, about 70 mN m s. Apart: between the impulse of the pulses and the one at once.
+Attitude: greatest error while the wheels take up the pulses. In the dark, the wheels holding 3 and -1.5 N m s at the start,
+assumed; the thrusters' layout is assumed too (messenger-full.toml).
+"""
 
 import sys
 
@@ -37,11 +43,6 @@ HEADER = (
     "case | impulse [N m s] | left over [mN m s] | apart [mN m s] | lasts [s] | propellant [g] | impulsive [g] | delta-v [mm/s] | "
     "impulsive [mm/s] | attitude [deg] | wheel torque [N m]"
 )
-REMARK = """\
-Impulse: of the same dump at once, in commanded flight. Left over: between the momentum after the pulses and the target; the
-smallest pulse of a 4.4 N thruster is 20 ms, about 70 mN m s. Apart: between the impulse of the pulses and the one at once.
-Attitude: greatest error while the wheels take up the pulses. In the dark, the wheels holding 3 and -1.5 N m s at the start,
-assumed; the thrusters' layout is assumed too (messenger-full.toml)."""
 
 
 def simulated(fmu, label):
@@ -101,7 +102,7 @@ def dump(run):
     found = run.all(labels, lambda label: simulated(fmu, label))
     run.line("Dumps of the controlled spacecraft by pulses of its 4.4 N thrusters\n")
     run.table_and_csv("dump.csv", HEADER, [row(label, *both) for label, both in zip(labels, found)])
-    run.line(REMARK)
+    run.remark()
     for label, (pulses, _) in zip(labels, found):
         draw(run, label, pulses)
 

@@ -1,4 +1,10 @@
-"""Paper 000: attitude jitter of a flexible structure by a wheel out of balance, with its spectrum."""
+"""Paper 000: attitude jitter of a flexible structure by a wheel out of balance, with its spectrum.
+
+Amplitude: that of the body's angle, the three axes together, from the rate under Hann's window over 164 s, after 240 s.
+Closed form: force U W^2 at the wheel's place on a body with its modes, all of them linear. At a mode: within 3 % of its
+frequency with the body free. Rms from 0.2 to 50 Hz. Free: nothing acts but the wheel. Controlled: the controller at 50 Hz,
+with noise of 20 urad of the star tracker and 1 urad after a second of the gyros, assumed; its torque rings the modes.
+"""
 
 import sys
 
@@ -46,11 +52,6 @@ LEAST_DB = -110.0
 HEADER = (
     "case | wheel [Hz] | line at [Hz] | amplitude [urad] | in closed form [urad] | ratio | greatest at a mode [urad] | rms [urad]"
 )
-REMARK = """\
-Amplitude: that of the body's angle, the three axes together, from the rate under Hann's window over 164 s, after 240 s.
-Closed form: force U W^2 at the wheel's place on a body with its modes, all of them linear. At a mode: within 3 % of its
-frequency with the body free. Rms from 0.2 to 50 Hz. Free: nothing acts but the wheel. Controlled: the controller at 50 Hz,
-with noise of 20 urad of the star tracker and 1 urad after a second of the gyros, assumed; its torque rings the modes."""
 
 
 class Structure:
@@ -188,7 +189,7 @@ def jitter(run):
     run.table_and_csv("jitter.csv", HEADER, [row(case, own, structure) for case, own in zip(chosen, spectra)])
     for k, (held_hz, free_hz) in enumerate(zip(structure.held_hz, structure.free_hz), 1):
         run.line(f"Mode {k}: {held_hz:.3f} Hz with the body held, {free_hz:.3f} Hz with the body free.")
-    run.line(REMARK)
+    run.remark()
     shown = np.flatnonzero((BINS_HZ >= LOWEST_HZ) & (BINS_HZ <= FASTEST_HZ + 1.0))
     cells = ([case.label, exact(BINS_HZ[k]), exact(own[k])] for case, own in zip(chosen, spectra) for k in shown)
     run.csv("jitter-spectra.csv", "case | frequency_hz | amplitude_rad", cells)

@@ -1,4 +1,11 @@
-"""Paper 001: safe modes reached in a loop of Guidance and the controlled plant."""
+"""Paper 001: safe modes reached in a loop of Guidance and the controlled plant.
+
+Attitude lost: +Z at the Sun with the keep-in zone off; the star tracker fails at 300 s and the gyros keep the estimate
+valid for 60 s; all Sun sensors fail at 2000 s and work again at 4400 s, the star tracker at 6000 s; Safe Hold is requested
+at 6300 s, Operational at 7800 s, and the first pointing command is set all the time. Zone violated: the same pointing; the
+zone is put in force at 300 s, Operational is requested at 2400 s. All times, the rates of Earth Acquisition and search, and
+how long the monitor waits are assumed: the paper prints none.
+"""
 
 import sys
 
@@ -81,13 +88,6 @@ CHAINS = {
         4000.0,
     ),
 }
-
-REMARK = """\
-Attitude lost: +Z at the Sun with the keep-in zone off; the star tracker fails at 300 s and the gyros keep the estimate
-valid for 60 s; all Sun sensors fail at 2000 s and work again at 4400 s, the star tracker at 6000 s; Safe Hold is requested
-at 6300 s, Operational at 7800 s, and the first pointing command is set all the time. Zone violated: the same pointing; the
-zone is put in force at 300 s, Operational is requested at 2400 s. All times, the rates of Earth Acquisition and search, and
-how long the monitor waits are assumed: the paper prints none."""
 
 
 def simulated(loop, label, step_s):
@@ -304,7 +304,7 @@ def safe_mode(run):
         for statement, holds, found in checks.rows
     ]
     run.table_and_csv("safe-mode.csv", "case | paper 001 | found | verdict", rows)
-    run.line(REMARK)
+    run.remark()
     header = (
         "case | time_s | q1 | q2 | q3 | q4 | rate_x_rad_s | rate_y_rad_s | rate_z_rad_s | sun_x | sun_y | sun_z | earth_x | "
         "earth_y | earth_z | sun_angle_deg | command_x_rad_s | command_y_rad_s | command_z_rad_s | mode | command_kind | "

@@ -1,4 +1,11 @@
-"""Paper 001: large slews of the controlled plant, with full wheels and with a wheel that fails."""
+"""Paper 001: large slews of the controlled plant, with full wheels and with a wheel that fails.
+
+Settled: the true attitude stays within 0.01 deg of the command. By the limits: accelerate, coast and decelerate about the
+slew's axis within both limits, in closed form. Torque and momentum: greatest share of what a wheel can give and hold.
+Wheels full: each starts at 99.5 % of its capacity, assumed, in the sense that the slew adds to, with dumps off; at 900 s a
+dump to zero is requested, or dump.threshold is put back. Wheel 2 fails at half of the slew's time by the limits. There is
+no keep-in zone here: the slews about X and Z take the Sun off the shade.
+"""
 
 import sys
 
@@ -34,12 +41,6 @@ HEADER = (
     "case | angle [deg] | settled [s] | by the limits [s] | overshoot [deg] | off the axis [deg] | rate [deg/s] | torque | "
     "momentum | a wheel full [s] | verdict"
 )
-REMARK = """\
-Settled: the true attitude stays within 0.01 deg of the command. By the limits: accelerate, coast and decelerate about the
-slew's axis within both limits, in closed form. Torque and momentum: greatest share of what a wheel can give and hold.
-Wheels full: each starts at 99.5 % of its capacity, assumed, in the sense that the slew adds to, with dumps off; at 900 s a
-dump to zero is requested, or dump.threshold is put back. Wheel 2 fails at half of the slew's time by the limits. There is
-no keep-in zone here: the slews about X and Z take the Sun off the shade."""
 
 
 @dataclass
@@ -232,7 +233,7 @@ def slew(run):
         f"Limits: {limits_deg[0]:.4f} deg/s and {limits_deg[1]:.5f} deg/s2 (control.slewRate and control.slewAcceleration), "
         f"wheels of {plant.torques_n_m[0]:g} N m and {plant.capacities_n_m_s[0]:g} N m s."
     )
-    run.line(REMARK)
+    run.remark()
     body = "case | time_s | q1 | q2 | q3 | q4 | rate_x_rad_s | rate_y_rad_s | rate_z_rad_s | left_x_rad | left_y_rad | left_z_rad"
     momentum = "momentum_x_n_m_s | momentum_y_n_m_s | momentum_z_n_m_s | torque_limited | dumping | dumps"
     numbers = range(1, len(plant.axes) + 1)

@@ -1,4 +1,15 @@
-"""Paper 001: from downlink to the camera at nadir under control: the estimated curves of Figures 7 and 8."""
+"""Paper 001: from downlink to the camera at nadir under control: the estimated curves of Figures 7 and 8.
+
+Settled: the estimated attitude stays within 0.1 deg and the rate within 0.005 deg/s of the command, assumed: the paper
+gives no number. Its gains, its limits of rate and acceleration and the angle of its slew are not printed either; ours are
+the shipped defaults (bandwidth 0.1 rad/s, damping 0.8, slew rate a quarter of what the wheels guarantee to hold, slew
+acceleration half of the torque they guarantee, on the largest inertia), and nothing is fitted: epoch and place on the orbit
+are those of pointing/transition. By the limits: accelerate, coast and decelerate through our angle, in closed form; so the
+difference in time is that of angle and limits, not of the controller. Assumed noise: star tracker 5 arc seconds about each
+axis at 10 Hz, gyros 0.005 deg a root hour and a drift of 0.1 deg/h in a day. The camera's angle is commanded once a second
+and Guidance takes it as fixed in between, so that the commanded rate has 0.0015 deg/s about X that the sequence of commanded
+attitudes lacks; the slew follows it, which is how far the Sun leaves -Y.
+"""
 
 import sys
 
@@ -27,17 +38,6 @@ NOISE = {
     "plant.gyro.drift": np.radians(0.1) / 3600.0 / 294.0,
 }
 CASES = {"with noise": NOISE, "without noise": {}}
-
-REMARK = """\
-Settled: the estimated attitude stays within 0.1 deg and the rate within 0.005 deg/s of the command, assumed: the paper
-gives no number. Its gains, its limits of rate and acceleration and the angle of its slew are not printed either; ours are
-the shipped defaults (bandwidth 0.1 rad/s, damping 0.8, slew rate a quarter of what the wheels guarantee to hold, slew
-acceleration half of the torque they guarantee, on the largest inertia), and nothing is fitted: epoch and place on the orbit
-are those of pointing/transition. By the limits: accelerate, coast and decelerate through our angle, in closed form; so the
-difference in time is that of angle and limits, not of the controller. Assumed noise: star tracker 5 arc seconds about each
-axis at 10 Hz, gyros 0.005 deg a root hour and a drift of 0.1 deg/h in a day. The camera's angle is commanded once a second
-and Guidance takes it as fixed in between, so that the commanded rate has 0.0015 deg/s about X that the sequence of commanded
-attitudes lacks; the slew follows it, which is how far the Sun leaves -Y."""
 
 HISTORY = (
     "case | time_s | command_q1 | command_q2 | command_q3 | command_q4 | estimate_q1 | estimate_q2 | estimate_q3 | estimate_q4 | "
@@ -151,7 +151,7 @@ def transition(run):
     run.line("Downlink until 500 s, then the camera at nadir (paper 001, Figures 7 and 8), under the plant's own controller\n")
     rows = [row for label, flight in zip(labels, flights) for row in comparison(loop, label, flight)]
     run.table_and_csv("transition.csv", "case | quantity | paper | ours | verdict", rows)
-    run.line(REMARK)
+    run.remark()
     cells = (row for label, flight in zip(labels, flights) for row in history(label, flight))
     run.csv("transition-history.csv", HISTORY, cells)
     draw(run, labels[0], flights[0])

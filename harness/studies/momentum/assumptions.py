@@ -1,4 +1,9 @@
-"""Paper 000: how Table 2 moves with start date, orbit frame and panel tilts, which the paper leaves open."""
+"""Paper 000: how Table 2 moves with start date, orbit frame and panel tilts, which the paper leaves open.
+
+Dumps to: share of the opposite threshold; 1.0 is the paper's, 0.9 the FMU's default. Study's own: elements about
+Mercury's equator, start 2009-04-06. Tilt signs: + turns a panel right-handed about +X, of the +X panel first. No
+choice is fitted to the counts.
+"""
 
 import sys
 
@@ -8,11 +13,6 @@ from dataclasses import replace
 from momentum.cases import ALONG_Z, CHOICES, CYLINDER, OWN, PANELS, PAPER, Simulated, with_strategies
 from momentum.counts import across, by_setting, write_dumps
 from study import main
-
-REMARK = """\
-Dumps to: share of the opposite threshold; 1.0 is the paper's, 0.9 the FMU's default. Study's own: elements about
-Mercury's equator, start 2009-04-06. Tilt signs: + turns a panel right-handed about +X, of the +X panel first. No
-choice is fitted to the counts."""
 
 
 def cases():
@@ -38,7 +38,7 @@ def assumptions(run):
         rows.append([*case.setting_cells()[:3], case.choice, *across(group)])
     header = "threshold | dumps to | shade | choice | Z offsets | paper | ours | verdict"
     run.table_and_csv("assumptions.csv", header, rows)
-    run.line(REMARK)
+    run.remark()
     write_dumps(run, simulated)
 
 

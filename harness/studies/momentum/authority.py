@@ -3,6 +3,11 @@
 One flight a distance from the Sun: the attitude is commanded, the place held, panels stand by a timeline of `[[panels]]`.
 Momentum gathers for a minute under each change both ways; half of what both leave apart, over the change, is its worth (central
 difference, off by a share of TURN_RAD squared). Momentum is inertial, by the body axes of the attitude that has the Sun on -Y.
+
+Windmill: along the light (from the Sun to the spacecraft, its sign as for a vector) and the size of what is across it. The others:
+sizes. Offset: all panels alike. Azimuth and elevation: of the Sun in the body frame. Alternation: half a turn about the Sun line,
+which turns round what is across it. The CSV has all components, by the body axes of the attitude that has the Sun on -Y. Each is
+a central difference of flights of MomentumPlant that is held and commanded, all its effects as its file has them.
 """
 
 import sys
@@ -47,12 +52,6 @@ CONTROLS = {
 }
 # Variables that the study itself sets.
 OWN = r"attitude\.source|command\.|momentum\.convention|dump\.threshold|orbit\.|panel\[\d+\]\.control|start\.epoch"
-
-REMARK = """\
-Windmill: along the light (from the Sun to the spacecraft, its sign as for a vector) and the size of what is across it. The others:
-sizes. Offset: all panels alike. Azimuth and elevation: of the Sun in the body frame. Alternation: half a turn about the Sun line,
-which turns round what is across it. The CSV has all components, by the body axes of the attitude that has the Sun on -Y. Each is
-a central difference of flights of MomentumPlant that is held and commanded, all its effects as its file has them."""
 
 
 def between(a, b):
@@ -239,7 +238,7 @@ def authority(run):
     header = "distance [AU] | offset [deg] | windmill along, a deg | across | offset, a deg | azimuth, a deg | elevation, a deg"
     run.table(f"{header} | centre of mass X, a cm | Y | Z | alternation", rows)
     run.line(balance(spacecraft, worths))
-    run.line(REMARK)
+    run.remark()
     names = ["still", *CONTROLS]
     units = ["n_m_s_d", *(f"n_m_s_d{per.replace('/', '_')}" for _, per, *_ in CONTROLS.values())]
     own = "".join(f" | {name}_{axis}_{per}" for name, per in zip(names, units) for axis in "xyz")

@@ -1,4 +1,9 @@
-"""Papers 000 and 003: sunlight on the whole MESSENGER over the sphere, and its momentum against shade and panels alone."""
+"""Papers 000 and 003: sunlight on the whole MESSENGER over the sphere, and its momentum against shade and panels alone.
+
+Guidance keeps the Sun at no azimuth, where the shade keeps bus and boom dark: what is lit beyond shade and cells is the bell,
+through the slit of 6 mm that the printed heights leave between the shade and its top. A strip of the bus' sides would be lit
+from 10.5 deg of azimuth on.
+"""
 
 import sys
 
@@ -27,11 +32,6 @@ GUIDED = {
 NAMES = ["momentum.inertial", "force.solar", "sun.azimuth", "sun.elevation"]
 # Surfaces that messenger.toml has as well; their backs it has not.
 KNOWN = ("side +X", "side -X", "slant +X", "slant -X", "front", "top slant -X", "top slant +X", "top front", "+X", "-X")
-
-REMARK = """\
-Guidance keeps the Sun at no azimuth, where the shade keeps bus and boom dark: what is lit beyond shade and cells is the bell,
-through the slit of 6 mm that the printed heights leave between the shade and its top. A strip of the bus' sides would be lit
-from 10.5 deg of azimuth on."""
 
 
 class Sphere:
@@ -150,7 +150,7 @@ def within_the_zone(run, few, whole):
     widest_deg = np.abs(whole.sun_deg).max(axis=0)
     run.line(f"The Sun was up to {widest_deg[0]:.1f} deg in azimuth and {widest_deg[1]:.1f} deg in elevation off -Y.\n")
     by_surface(run, few, whole)
-    run.line(REMARK)
+    run.remark()
     header = "time_d | few_x_n_m_s | few_y_n_m_s | few_z_n_m_s | whole_x_n_m_s | whole_y_n_m_s | whole_z_n_m_s"
     numbers = np.column_stack([few.time_d, few.momentum_n_m_s, whole.momentum_n_m_s])
     run.csv("off-sun-momentum.csv", header, (map(exact, own) for own in numbers))

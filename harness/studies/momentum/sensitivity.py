@@ -1,4 +1,9 @@
-"""Paper 000: dumps and momentum a day with misaligned, unequal and slowly turning parts, the paper's open questions."""
+"""Paper 000: dumps and momentum a day with misaligned, unequal and slowly turning parts, the paper's open questions.
+
+Dumps: with dumps only / reactive / predictive targets; 5.5 N.m.s, to 0.9 of the opposite threshold, centre of mass at
+Z = -2.54 cm. Momentum a day: mean magnitude of what each of the 90 days adds without dumps or targets. Unchanged: panels at
+65 deg, shade cloth of specular 0.15, turns at once. An axis of a panel is turned with its cell side.
+"""
 
 import sys
 
@@ -14,11 +19,6 @@ from vectors import norm
 NO_DUMPS = {"dump.threshold": [1e6] * 3}
 # The paper's plates and panels; strategy and momentum vary.
 CASE = Case("dumps only", 5.5, OWN, PANELS, "paper's", (0, 0, -1))
-
-REMARK = """\
-Dumps: with dumps only / reactive / predictive targets; 5.5 N.m.s, to 0.9 of the opposite threshold, centre of mass at
-Z = -2.54 cm. Momentum a day: mean magnitude of what each of the 90 days adds without dumps or targets. Unchanged: panels at
-65 deg, shade cloth of specular 0.15, turns at once. An axis of a panel is turned with its cell side."""
 
 
 def shade(*rotation_deg):
@@ -109,7 +109,7 @@ def sensitivity(run):
     run.line("Small changes of the spacecraft: dumps in 90 days and momentum a day (paper 000, plates and panels)\n")
     header = "change | dumps, paper's | paper's a day [N.m.s] | dumps, inertial | inertial a day [N.m.s]"
     run.table_and_csv("sensitivity.csv", header, rows)
-    run.line(REMARK)
+    run.remark()
 
 
 main(sensitivity)

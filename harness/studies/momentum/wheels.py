@@ -1,4 +1,10 @@
-"""Paper 000: storage and mass of the wheels against dumps, by strategy."""
+"""Paper 000: storage and mass of the wheels against dumps, by strategy.
+
+Centre of mass at Z = -2.54 / -5.08 cm; a star where two dumps are less than the mission's five days apart. Dumps go to
+0.9 of the opposite threshold. Printed: 4, 8 and 12 N.m.s; 12, 17 and 20 kg; thresholds 4, 5.5 and 7 N.m.s; straight lines
+between. The paper does not print the wheels' axes: up to which threshold no wheel saturates holds for messenger.toml's
+pyramid.
+"""
 
 import sys
 
@@ -14,12 +20,6 @@ CAPACITIES_N_M_S = (4.0, 6.0, 8.0, 10.0, 12.0)
 MASSES_KG = np.interp(CAPACITIES_N_M_S, [4.0, 8.0, 12.0], [12.0, 17.0, 20.0])
 THRESHOLDS_N_M_S = np.interp(CAPACITIES_N_M_S, [4.0, 8.0, 12.0], [4.0, 5.5, 7.0])
 OFFSETS_IN = ((0, 0, -1), (0, 0, -2))
-
-REMARK = """\
-Centre of mass at Z = -2.54 / -5.08 cm; a star where two dumps are less than the mission's five days apart. Dumps go to
-0.9 of the opposite threshold. Printed: 4, 8 and 12 N.m.s; 12, 17 and 20 kg; thresholds 4, 5.5 and 7 N.m.s; straight lines
-between. The paper does not print the wheels' axes: up to which threshold no wheel saturates holds for messenger.toml's
-pyramid."""
 
 
 def guaranteed_n_m_s(fmu, capacity_n_m_s):
@@ -52,7 +52,7 @@ def wheels(run):
     run.line("Thruster dumps in 90 days over the storage of the wheels (paper 000), plates and panels\n")
     header = "storage [N.m.s] | mass of four [kg] | threshold [N.m.s] | no wheel saturates up to [N.m.s] | momentum"
     run.table_and_csv("wheels.csv", f"{header} | dumps only | reactive | predictive", rows)
-    run.line(REMARK)
+    run.remark()
 
     shown = [(convention, offset_in) for convention in CONVENTIONS for offset_in in OFFSETS_IN]
     labels = [f"{convention}, Z {2.54 * offset_in[2]:.2f} cm" for convention, offset_in in shown]

@@ -1,4 +1,10 @@
-"""Paper 001: limb points at azimuths and on the terminator, and a scan of the limb's height."""
+"""Paper 001: limb points at azimuths and on the terminator, and a scan of the limb's height.
+
+Heights are found from the commanded attitude alone: of the points of the line along +Z the one whose radius meets the
+ellipsoid at the limb (eq 21), its height along the radius; the residual is that less the commanded height. Radii of
+2440.53, 2439.28 and 2438.26 km along the planet's own axes. Azimuths are right-handed about up from downtrack, an
+assumption: the paper does not print their sense.
+"""
 
 import sys
 
@@ -28,12 +34,6 @@ ORBIT_S = 43_200
 EVERY_S = 60
 # Bounds of the Sun keep-in zone (eqs 23 and 24).
 ZONE_DEG = np.array([15.0, 13.0])
-
-REMARK = """\
-Heights are found from the commanded attitude alone: of the points of the line along +Z the one whose radius meets the
-ellipsoid at the limb (eq 21), its height along the radius; the residual is that less the commanded height. Radii of
-2440.53, 2439.28 and 2438.26 km along the planet's own axes. Azimuths are right-handed about up from downtrack, an
-assumption: the paper does not print their sense."""
 
 
 def generic(fmus, label, azimuth_deg, height_rate_m_s, seconds):
@@ -270,7 +270,7 @@ def limb(run):
         print_scan(run, flights[SCAN])
     if TERMINATOR in flights:
         print_terminator(run, flights[TERMINATOR])
-    run.line(REMARK)
+    run.remark()
 
 
 main(limb)

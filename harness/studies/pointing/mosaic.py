@@ -1,4 +1,11 @@
-"""Paper 001: footprints of inertial, body and planet-fixed scans on the planet's disc."""
+"""Paper 001: footprints of inertial, body and planet-fixed scans on the planet's disc.
+
+Covered: of the disc as seen midway, by solid angle, what some frame shows. Overlap: of the surface in a frame what the
+next one in time shows too. Rates and the Sun's angles in the body frame: the greatest; constrained: seconds at which a
+constraint changed the command or no scan was active. Frames of the inertial and the planet-fixed scan are taken at rest,
+those of the body scan along the moving rows. Both axes of a scan begin together, as the paper gives an axis no delay.
+The fields are those published of MDIS; the one along +Z, rates, durations and pauses are assumed.
+"""
 
 import sys
 
@@ -19,13 +26,6 @@ DISC = 240
 FIELD = 60
 # Points along a side of a frame's outline.
 SIDE = 12
-
-REMARK = """\
-Covered: of the disc as seen midway, by solid angle, what some frame shows. Overlap: of the surface in a frame what the
-next one in time shows too. Rates and the Sun's angles in the body frame: the greatest; constrained: seconds at which a
-constraint changed the command or no scan was active. Frames of the inertial and the planet-fixed scan are taken at rest,
-those of the body scan along the moving rows. Both axes of a scan begin together, as the paper gives an axis no delay.
-The fields are those published of MDIS; the one along +Z, rates, durations and pauses are assumed."""
 
 
 @dataclass
@@ -293,7 +293,7 @@ def mosaic(run):
     run.line('Mosaics by scans with reversals and pauses (paper 001, "Scan patterns")\n')
     header = "scan | camera | frames | disc covered | of that twice | overlap with the next | greatest rate | at frames"
     run.table(f"{header} | Sun azimuth / elevation | constrained", [it.row() for it in mosaics])
-    run.line(REMARK)
+    run.remark()
     own = "scan | frame | field_deg | mdis_angle_deg | latitude_deg | longitude_deg | on_disc | overlap_with_next"
     cells = (row for it in mosaics for row in it.cells())
     run.csv("mosaic.csv", f"{own} | rate_deg_s | off_nadir_deg | {GEOMETRY}", cells)

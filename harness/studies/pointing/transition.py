@@ -1,4 +1,13 @@
-"""Paper 001: from downlink to the camera at nadir: the commanded curves of Figures 7 and 8."""
+"""Paper 001: from downlink to the camera at nadir: the commanded curves of Figures 7 and 8.
+
+Not reproduced: the paper prints neither the epoch nor the place on the orbit, and no numbers of the curves; so the
+quaternions of Figure 7 and the azimuth and elevation of Mercury in Figure 8 cannot be compared, and its slew angle is
+unspecified. Chosen: 2009-04-09 03:36 TDB, when the Earth is 33 deg from the Sun, and a true anomaly of 215 deg at the
+start, where the paper's eight hours of downlink about apoapsis end; elsewhere on this orbit the slew is anything up to
+180 deg. The paper puts azimuth -33 deg into the +X,+Y quadrant; by its own angles it is in the -X,-Y quadrant. The
+estimated curves are those of control/transition. Camera follows: its angle is commanded again every second, so that
+the Sun stays on -Y; camera held: the angle of 500 s stays, and the Sun's elevation takes up how nadir moves.
+"""
 
 import sys
 
@@ -14,15 +23,6 @@ END_S = 1000
 # Whether the camera's angle is commanded again every second after the slew, so that the Sun stays on -Y; otherwise the angle
 # of the slew stays.
 CASES = {"camera follows": True, "camera held": False}
-
-REMARK = """\
-Not reproduced: the paper prints neither the epoch nor the place on the orbit, and no numbers of the curves; so the
-quaternions of Figure 7 and the azimuth and elevation of Mercury in Figure 8 cannot be compared, and its slew angle is
-unspecified. Chosen: 2009-04-09 03:36 TDB, when the Earth is 33 deg from the Sun, and a true anomaly of 215 deg at the
-start, where the paper's eight hours of downlink about apoapsis end; elsewhere on this orbit the slew is anything up to
-180 deg. The paper puts azimuth -33 deg into the +X,+Y quadrant; by its own angles it is in the -X,-Y quadrant. The
-estimated curves are those of control/transition. Camera follows: its angle is commanded again every second, so that
-the Sun stays on -Y; camera held: the angle of 500 s stays, and the Sun's elevation takes up how nadir moves."""
 
 
 def simulated(fmus, label):
@@ -107,7 +107,7 @@ def transition(run):
     run.line("Downlink until 500 s, then the camera at nadir (paper 001, Figures 7 and 8, commanded curves)\n")
     rows = [row for label, flight in zip(labels, flights) for row in comparison(label, flight)]
     run.table("case | quantity | paper | ours | verdict", rows)
-    run.line(REMARK)
+    run.remark()
     own = "".join(f" | {body}_azimuth_deg | {body}_elevation_deg" for body in ("sun", "earth", "mercury"))
     cells = (
         [label, *(exact(it) for it in numbers), *flight.geometry(second)]
