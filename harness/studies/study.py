@@ -279,4 +279,5 @@ def main(study, **extra):
             raise Failure(f"{name} does not take {others[0]}")
         study(Run(name, options, program.__doc__))
     except Failure as failure:
-        sys.exit(f"{path.stem}: {failure}")
+        print(f"{path.stem}: {failure}", file=sys.stderr)
+        sys.exit(2)

@@ -15,7 +15,10 @@ STUDIES = pathlib.Path(__file__).parents[2] / "harness/studies"
 def load(monkeypatch):
     """Imports a module of the studies, which puts their folder in place of a script's first."""
     monkeypatch.syspath_prepend(STUDIES)
-    return lambda name: importlib.import_module(name)
+    # The examples have a module of this name too.
+    monkeypatch.delitem(sys.modules, "fmu", raising=False)
+    yield lambda name: importlib.import_module(name)
+    sys.modules.pop("fmu", None)
 
 
 def test_cells_read_as_numbers_do(load):
