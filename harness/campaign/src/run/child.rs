@@ -1,11 +1,6 @@
 //! A simulation in a process of its own: the child sends rows, the parent takes them as far as they are expected.
 
-use std::{
-    cell::RefCell,
-    fs::File,
-    path::Path,
-    sync::atomic::Ordering,
-};
+use std::{cell::RefCell, fs::File, path::Path, sync::atomic::Ordering};
 
 use files::outcome::Outcome;
 use fmi::{Collector, Ended, Error, LogMessage, Recording, Row, Rows, Status, Watcher};

@@ -1,10 +1,6 @@
 //! A process that simulates every n-th run of a campaign, with one instance that is reset between runs.
 
-use std::{
-    error,
-    path::Path,
-    sync::atomic::Ordering,
-};
+use std::{error, path::Path, sync::atomic::Ordering};
 
 use files::outcome::{Answer, Outcome};
 use fmi::{Ended, Error, Fmu, Instance, InstanceOptions, Options, Row, Rows, Status, Value};

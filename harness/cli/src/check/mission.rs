@@ -1,7 +1,5 @@
 //! `heliotorque check mission.toml`: whether a mission can be simulated; its first step is simulated.
 
-use std::sync::atomic::AtomicBool;
-
 use campaign::run::{Prepared, Run, Settings, long_step};
 use fmi::Collector;
 use inputs::{epoch, kind::FileKind};
@@ -27,9 +25,7 @@ fn summary(arguments: &Check) -> Result<(String, Vec<String>), Box<dyn std::erro
     let Settings { times, requested, limits, sets, positions, inputs, .. } = settings;
     let mut rows = Collector::new(subject.description(), positions);
     // Ended after the first step.
-    let cancel = AtomicBool::new(true);
-    let (_, messages) =
-        settings.simulate_into(subject, &simulated.run, (&mut |_| {}, &cancel, None), &mut rows)?;
+    let (_, messages) = settings.simulate_into(subject, &simulated.run, (&mut |_| false, None), &mut rows)?;
     let short = terminal::short;
     let begin = simulated.mission.as_ref().and_then(|mission| epoch::date(mission.epoch_s()?.it));
     let begin = begin.unwrap_or_else(|| format!("{} s", short(times.start_s)));

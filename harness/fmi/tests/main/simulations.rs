@@ -1,6 +1,5 @@
 //! The driver: what it runs equals closed forms, and whatever stops it, what was recorded stays.
 
-
 use fmi::{Column, Ended, Error, InputTable, Options, Row, Rows, Value, simulate, simulate_into};
 
 use crate::probe;

@@ -1,8 +1,6 @@
 //! Flights through the FMU: one without dumps for momentum by source, others by threshold and strategy for dumps.
 
-use std::{
-    time::{Duration, Instant},
-};
+use std::time::{Duration, Instant};
 
 use fmi::{Options, Recording, Value};
 use inputs::variables::{NEVER_N_M_S, elements, numbers, selected, vectors};
