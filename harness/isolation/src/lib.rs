@@ -10,6 +10,7 @@ mod channel;
 pub mod interrupt;
 mod limits;
 mod printed;
+pub mod probes;
 mod relayed;
 mod supervisor;
 mod system;

@@ -9,4 +9,5 @@ pub mod check;
 pub mod coefficients;
 pub mod instance;
 pub mod manual;
+pub mod overview;
 pub mod pointing;

@@ -1,5 +1,6 @@
 //! `heliotorque run`: runs an FMU or a system in a process of its own, records, writes, draws.
 
+mod checked;
 mod child;
 pub mod options;
 mod settings;
@@ -15,6 +16,7 @@ use std::{
     time::Instant,
 };
 
+pub use checked::checked;
 pub use child::{RunInChild, run as run_in_child};
 pub(crate) use child::{push_row, take_row};
 use files::{

@@ -4,7 +4,7 @@ use std::{error::Error, ffi::OsString, path::Path};
 
 use files::{
     Scratch,
-    outcome::{Answer, Outcome},
+    outcome::{Answer, Outcome, Refusal},
 };
 use fmi::Fmu;
 use inputs::{
@@ -30,11 +30,11 @@ pub struct Simulated {
 
 impl Simulated {
     /// Reads the mission if the arguments name one.
-    pub fn new(arguments: &Run) -> Result<Self, String> {
+    pub fn new(arguments: &Run) -> Result<Self, Refusal> {
         let is_toml = |path: &Path| path.extension().is_some_and(|extension| extension == "toml");
         if !is_toml(&arguments.fmu) {
             if arguments.template.is_some() {
-                return Err("--template is for a mission (.toml): an FMU has its own library".to_owned());
+                return Err("--template is for a mission (.toml): an FMU has its own library".to_owned().into());
             }
             return Ok(Self { run: arguments.clone(), mission: None });
         }

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use files::outcome::Refusal;
 use physics::toml::Place;
 
 use super::{
@@ -23,14 +24,15 @@ impl Mission {
     ///
     /// # Errors
     /// A file that cannot be read; everything wrong in it with line, key, what was found and what is allowed.
-    pub fn read(file: &Path) -> Result<Self, String> {
+    pub fn read(file: &Path) -> Result<Self, Refusal> {
         let text = FileKind::Mission.read(file)?;
         if FileKind::recognize(&text).is_none() {
             return Err(format!(
                 "{}: found a file without any key of a mission, allowed: spacecraft = \"my.toml\" or fmu = \"My.fmu\", stop, step, \
                  record: see `heliotorque new mission`",
                 file.display()
-            ));
+            )
+            .into());
         }
         reading::parse(file, text, judge)
     }

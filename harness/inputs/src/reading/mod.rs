@@ -11,7 +11,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use physics::toml::{Checker, Document, Place};
+use files::outcome::Refusal;
+use physics::toml::{Checker, Document, FileError, Place};
 use serde::de::DeserializeOwned;
 
 use crate::kind::FileKind;
@@ -59,7 +60,7 @@ pub(crate) fn read<D: DeserializeOwned + Checked + physics::toml::Written>(
     kind: FileKind,
     file: &Path,
     judge: impl FnOnce(&D, &D::Value, &Place<'_>),
-) -> Result<InFile<D::Value>, String> {
+) -> Result<InFile<D::Value>, Refusal> {
     parse(file, kind.read(file)?, judge)
 }
 
@@ -68,14 +69,19 @@ pub(crate) fn parse<D: DeserializeOwned + Checked + physics::toml::Written>(
     file: &Path,
     text: String,
     judge: impl FnOnce(&D, &D::Value, &Place<'_>),
-) -> Result<InFile<D::Value>, String> {
+) -> Result<InFile<D::Value>, Refusal> {
     let shown = file.display().to_string();
-    let document = Document::parse(&shown, &text).map_err(|error| error.to_string())?;
-    let (mut description, checker) = Checker::read::<D>(&document).map_err(|error| error.to_string())?;
+    let document = Document::parse(&shown, &text).map_err(refusal)?;
+    let (mut description, checker) = Checker::read::<D>(&document).map_err(refusal)?;
     let root = Place::root(&checker);
     description.check(&root, file.parent().unwrap_or(Path::new("")));
     let values = description.value();
     judge(&description, &values, &root);
-    let values = checker.finish(values).map_err(|error| error.to_string())?;
+    let values = checker.finish(values).map_err(refusal)?;
     Ok(InFile { file: file.to_owned(), text, values })
+}
+
+/// Problems of a file that a reader of the physics crate found.
+pub fn refusal(error: FileError) -> Refusal {
+    Refusal { text: error.to_string(), count: error.problems.len() + error.unlisted }
 }
