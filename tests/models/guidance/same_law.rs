@@ -9,7 +9,7 @@ const ORBIT_S: f64 = 43_200.0;
 
 /// The example's day, its dates as times from its first one.
 fn example() -> String {
-    const TEXT: &str = include_str!("../../../../resources/examples/timeline.toml");
+    const TEXT: &str = include_str!("../../../fmu-src/resources/examples/timeline.toml");
     let time = |line: &str| {
         let date = line.split('"').nth(1)?;
         let (day, clock) = date.strip_suffix(" UTC")?.strip_prefix("2011-04-0")?.split_once('T')?;

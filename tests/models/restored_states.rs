@@ -10,9 +10,9 @@ use super::named_model::{NamedInstance, NamedModel};
 use super::plant_light::{BUSY, EFFECTS, SHADOWED};
 use super::spacecraft::RADIATING;
 
-const FULL: &str = include_str!("../../../resources/messenger-full.toml");
-const CUBESAT: &str = include_str!("../../../resources/examples/cubesat-12u.toml");
-const FLEXIBLE: &str = include_str!("../../../resources/examples/flexible-craft.toml");
+const FULL: &str = include_str!("../../fmu-src/resources/messenger-full.toml");
+const CUBESAT: &str = include_str!("../../fmu-src/resources/examples/cubesat-12u.toml");
+const FLEXIBLE: &str = include_str!("../../fmu-src/resources/examples/flexible-craft.toml");
 const SOURCES: [f64; 4] = [1.0, 2.0, 3.0, 4.0];
 const CONTROLLED: (&str, f64) = ("attitude.source", 3.0);
 const FREE: [(&str, f64); 2] = [("attitude.source", 4.0), ("start.q[4]", 1.0)];

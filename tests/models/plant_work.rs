@@ -67,7 +67,7 @@ fn light_and_heat_of_a_controlled_flight_count() {
 /// What a step may cost does not depend on what its instance computed before.
 #[test]
 fn a_step_that_passed_passes_after_its_state_was_restored_elsewhere() {
-    let orbiter = include_str!("../../../resources/examples/mercury-orbiter.toml");
+    let orbiter = include_str!("../../fmu-src/resources/examples/mercury-orbiter.toml");
     let named = NamedModel::<MomentumPlant>::with("mercury-orbiter.toml", orbiter);
     let (mut passed, mut refused) = (0, 0);
     for (source, start_s, step_s) in [(1.0, 40_000.0, 1e6), (3.0, 20.0, 40.0)] {
@@ -89,7 +89,7 @@ fn a_step_that_passed_passes_after_its_state_was_restored_elsewhere() {
 
 #[test]
 fn a_mercury_year_with_every_effect_is_far_within_the_default() {
-    let orbiter = include_str!("../../../resources/examples/mercury-orbiter.toml");
+    let orbiter = include_str!("../../fmu-src/resources/examples/mercury-orbiter.toml");
     let named = NamedModel::<MomentumPlant>::with("mercury-orbiter.toml", orbiter);
     let everything = [
         ("planetLight.enabled", 1.0),

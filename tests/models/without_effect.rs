@@ -17,7 +17,7 @@ fn warnings<M: Model>(text: &str, sets: &[(&str, f64)]) -> Vec<String> {
 const SHADOWS: &[(&str, f64)] = &[("shadowing.enabled", 1.0)];
 
 fn shadows_need_outlines<M: Model>() {
-    let thermal = include_str!("../../../resources/messenger-thermal.toml");
+    let thermal = include_str!("../../fmu-src/resources/messenger-thermal.toml");
     let found = NamedModel::<M>::with("my.toml", thermal).refusal(SHADOWS);
     let expected = "shadowing.enabled: found true, allowed: false, as no surface of MESSENGER, thermal has an outline that could \
                     cast a shadow; polygon_m gives one to `shade -X`, `shade front`, ";
@@ -28,7 +28,7 @@ fn shadows_need_outlines<M: Model>() {
             "shadowing.enabled: `far`, `outer` have no outline (polygon_m), cast no shadow and are never shadowed"
         ]
     );
-    let whole = include_str!("../../../resources/messenger-full.toml");
+    let whole = include_str!("../../fmu-src/resources/messenger-full.toml");
     assert_eq!(warnings::<M>(whole, SHADOWS), [""; 0]);
     assert_eq!(warnings::<M>(RADIATING, &[]), [""; 0]);
     // A file that asks for them is refused before anything is packed.
@@ -56,7 +56,7 @@ fn shadows_without_outlines_in_disturbance_torque() {
 /// A cylindrical shade has no outline.
 #[test]
 fn a_cylindrical_shade_casts_no_shadow() {
-    let whole = include_str!("../../../resources/messenger-full.toml");
+    let whole = include_str!("../../fmu-src/resources/messenger-full.toml");
     let cylinder = "[sunshade.cylinder]\nradius_m = 0.991\nheight_m = 2.489\nsubtended_angle_deg = 122.0\noptics = \
                     \"shade-cloth\"\n[start]";
     let text = if whole.contains("[sunshade.cylinder]") {

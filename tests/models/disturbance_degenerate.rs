@@ -13,7 +13,7 @@ const RADIUS_M: f64 = 2.4394e6;
 
 #[test]
 fn on_the_axes_everything_is_finite() {
-    let cylinder = include_str!("../../../resources/messenger.toml");
+    let cylinder = include_str!("../../fmu-src/resources/messenger.toml");
     for mut fmu in [Disturbance::messenger(), Disturbance::shadowed(), Disturbance::of("cylinder", cylinder)]
     {
         fmu.start();

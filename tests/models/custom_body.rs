@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use super::named_model::NamedModel;
 
-const SAILER: &str = include_str!("../../../resources/examples/solar-sailer.toml");
+const SAILER: &str = include_str!("../../fmu-src/resources/examples/solar-sailer.toml");
 
 /// 5 km radius, 2000 kg/m3.
 const GM_M3_S2: f64 = 69_886.0;

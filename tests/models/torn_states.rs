@@ -116,7 +116,7 @@ fn a_plant_in_light_and_heat() {
             scattered(state, short_or_long(250, 700))
         });
     }
-    let orbiter = include_str!("../../../resources/examples/mercury-orbiter.toml");
+    let orbiter = include_str!("../../fmu-src/resources/examples/mercury-orbiter.toml");
     let named = NamedModel::<MomentumPlant>::with("mercury-orbiter.toml", orbiter);
     let sets = [&EFFECTS[..2], &[("orbit.dynamics", 2.0), LIMIT]].concat();
     goes_on_or_fails(&named, &sets, 1_000.0, &[2_000.0], |state| scattered(state, short_or_long(500, 1500)));
@@ -162,16 +162,16 @@ fn states_of_other_spacecraft() {
     // Thrusters, tanks, wheels, modes and pendulums.
     let files = [
         ("messenger.toml", MomentumPlant::DEFAULT_SETUP, [0, 0, 4, 0]),
-        ("messenger-full.toml", include_str!("../../../resources/messenger-full.toml"), [17, 2, 4, 0]),
+        ("messenger-full.toml", include_str!("../../fmu-src/resources/messenger-full.toml"), [17, 2, 4, 0]),
         (
             "flexible-craft.toml",
-            include_str!("../../../resources/examples/flexible-craft.toml"),
+            include_str!("../../fmu-src/resources/examples/flexible-craft.toml"),
             [0, 0, 4, 3],
         ),
-        ("cubesat-12u.toml", include_str!("../../../resources/examples/cubesat-12u.toml"), [0, 0, 4, 0]),
+        ("cubesat-12u.toml", include_str!("../../fmu-src/resources/examples/cubesat-12u.toml"), [0, 0, 4, 0]),
         (
             "mercury-orbiter.toml",
-            include_str!("../../../resources/examples/mercury-orbiter.toml"),
+            include_str!("../../fmu-src/resources/examples/mercury-orbiter.toml"),
             [0, 0, 0, 0],
         ),
         ("simple.toml", SIMPLE, [0, 1, 0, 0]),

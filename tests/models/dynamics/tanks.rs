@@ -9,7 +9,7 @@ use super::super::random::RandomNumbers;
 use super::super::spacecraft::{EXHAUST_M_S, SIMPLE, couples};
 use super::{DARK, PlantInstance, Start, held_momentum, inertia, initialize, to_inertial};
 
-const FULL: &str = include_str!("../../../../resources/messenger-full.toml");
+const FULL: &str = include_str!("../../../fmu-src/resources/messenger-full.toml");
 const NO_DUMPS: Start<'_> =
     &[("dump.threshold[1]", 1e9), ("dump.threshold[2]", 1e9), ("dump.threshold[3]", 1e9)];
 /// Thrusters by their tank.

@@ -17,11 +17,11 @@ fn described(model: &str, file: Option<(&str, &str)>) -> Option<Vec<ScalarVariab
 
 /// Files that the three-axis models share, and the spinner's own.
 const FILES: &[(&str, &str)] = &[
-    ("messenger.toml", include_str!("../../../resources/messenger.toml")),
-    ("messenger-full.toml", include_str!("../../../resources/messenger-full.toml")),
-    ("messenger-thermal.toml", include_str!("../../../resources/messenger-thermal.toml")),
-    ("solar-sailer.toml", include_str!("../../../resources/examples/solar-sailer.toml")),
-    ("ace.toml", include_str!("../../../resources/ace.toml")),
+    ("messenger.toml", include_str!("../../fmu-src/resources/messenger.toml")),
+    ("messenger-full.toml", include_str!("../../fmu-src/resources/messenger-full.toml")),
+    ("messenger-thermal.toml", include_str!("../../fmu-src/resources/messenger-thermal.toml")),
+    ("solar-sailer.toml", include_str!("../../fmu-src/resources/examples/solar-sailer.toml")),
+    ("ace.toml", include_str!("../../fmu-src/resources/ace.toml")),
 ];
 
 /// Names that may differ in one respect between models, and why.

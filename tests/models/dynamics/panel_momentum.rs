@@ -19,7 +19,7 @@ const TUMBLING: Start<'_> = &[("start.rate[1]", 4e-3), ("start.rate[2]", -7e-3),
 
 /// The shipped spacecraft with panels of these masses.
 pub(super) fn text(panels: [&str; 2]) -> String {
-    let shipped = include_str!("../../../../resources/messenger.toml");
+    let shipped = include_str!("../../../fmu-src/resources/messenger.toml");
     let mut parts = shipped.split("[[panels]]");
     let head = parts.next().unwrap();
     let bodies = parts.zip(panels).map(|(body, mass)| format!("[[panels]]\n{mass}\n{body}"));

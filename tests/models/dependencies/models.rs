@@ -248,7 +248,7 @@ fn plant(text: &str) -> Search<MomentumPlant> {
     Search { kept: PLANT_KEPT, prepare: prepare_plant, ..search }
 }
 
-const FULL: &str = include_str!("../../../../resources/messenger-full.toml");
+const FULL: &str = include_str!("../../../fmu-src/resources/messenger-full.toml");
 /// Flight by torque after commands, as in the shipped system but for the theory of the planets, which costs most.
 fn controlled() -> String {
     let fixed = [

@@ -5,10 +5,10 @@ use models::{Guidance, MomentumPlant};
 use super::named_model::{NamedModel, described};
 use fmi_export::model_description::VariableKind;
 
-const LEO: &str = include_str!("../../../resources/examples/leo-500kg.toml");
-const SAILER: &str = include_str!("../../../resources/examples/solar-sailer.toml");
-const TELESCOPE: &str = include_str!("../../../resources/examples/sunshield-telescope.toml");
-const MESSENGER: &str = include_str!("../../../resources/messenger.toml");
+const LEO: &str = include_str!("../../fmu-src/resources/examples/leo-500kg.toml");
+const SAILER: &str = include_str!("../../fmu-src/resources/examples/solar-sailer.toml");
+const TELESCOPE: &str = include_str!("../../fmu-src/resources/examples/sunshield-telescope.toml");
+const MESSENGER: &str = include_str!("../../fmu-src/resources/messenger.toml");
 
 /// The warnings of a flight over so many seconds.
 fn warned(text: &str, sets: &[(&str, f64)], end_s: f64) -> Vec<String> {
@@ -120,15 +120,15 @@ fn each_setting_that_is_hardly_meant_raises_its_warning_alone() {
 fn what_is_shipped_raises_no_warning() {
     let files = [
         MESSENGER,
-        include_str!("../../../resources/messenger-thermal.toml"),
-        include_str!("../../../resources/messenger-full.toml"),
-        include_str!("../../../resources/examples/cubesat-12u.toml"),
-        include_str!("../../../resources/examples/flexible-craft.toml"),
-        include_str!("../../../resources/examples/mercury-orbiter.toml"),
+        include_str!("../../fmu-src/resources/messenger-thermal.toml"),
+        include_str!("../../fmu-src/resources/messenger-full.toml"),
+        include_str!("../../fmu-src/resources/examples/cubesat-12u.toml"),
+        include_str!("../../fmu-src/resources/examples/flexible-craft.toml"),
+        include_str!("../../fmu-src/resources/examples/mercury-orbiter.toml"),
         LEO,
         SAILER,
         TELESCOPE,
-        include_str!("../../../../docs/src/tutorial/leo.toml"),
+        include_str!("../../docs/src/tutorial/leo.toml"),
     ];
     let warned = |text: &&str| {
         let found = warned(text, &[], 43_200.0);

@@ -33,7 +33,7 @@ impl Drop for Rounding {
     }
 }
 
-const ORBITER: &str = include_str!("../../../resources/examples/mercury-orbiter.toml");
+const ORBITER: &str = include_str!("../../fmu-src/resources/examples/mercury-orbiter.toml");
 
 const EVERYTHING: &[(&str, f64)] = &[
     ("planetLight.enabled", 1.0),

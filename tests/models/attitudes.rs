@@ -8,7 +8,7 @@ use physics::spacecraft::MESSENGER_TOML;
 
 use super::named_model::{NamedInstance, NamedModel, assert_cuts_change_nothing};
 
-const LEO: &str = include_str!("../../../resources/examples/leo-500kg.toml");
+const LEO: &str = include_str!("../../fmu-src/resources/examples/leo-500kg.toml");
 
 /// A spacecraft about the Earth with two arrays about one axis, and more of its file.
 fn comsat(axis: &str, zero_normal: &str, more: &str) -> String {
@@ -231,7 +231,7 @@ fn what_gives_no_attitude_is_refused_by_name() {
     says(&messenger, &q, &["guided.attitude", "1.0011", "within 1e-3"]);
     let along_z = NamedModel::with("comsat.toml", &comsat("[0, 0, 1]", "[0, -1, 0]", ""));
     says(&along_z, &[("guided.scienceRule", 5.0)], &["guided.scienceRule", "yawSteering", "along Z"]);
-    let sails = include_str!("../../../resources/examples/leo-500kg.toml").replacen(
+    let sails = include_str!("../../fmu-src/resources/examples/leo-500kg.toml").replacen(
         "axis = [1.0, 0.0, 0.0]\nzero_normal = [0.0, -1.0, 0.0]",
         "axis = [0.0, 1.0, 0.0]\nzero_normal = [0.0, 0.0, -1.0]",
         1,

@@ -8,7 +8,7 @@ use models::{MomentumPlant, SpinPlant};
 
 use super::named_model::described;
 
-const FULL: &str = include_str!("../../../resources/messenger-full.toml");
+const FULL: &str = include_str!("../../fmu-src/resources/messenger-full.toml");
 
 fn with(entries: &str) -> Description {
     let text = format!("{}\n[fixed]\n{entries}\n", MomentumPlant::DEFAULT_SETUP);

@@ -6,7 +6,7 @@ use physics::environment::dates;
 
 use super::named_model::{NamedInstance, NamedModel, assert_cuts_change_nothing, assert_same};
 
-const CUBESAT: &str = include_str!("../../../resources/examples/cubesat-12u.toml");
+const CUBESAT: &str = include_str!("../../fmu-src/resources/examples/cubesat-12u.toml");
 
 fn cubesat() -> NamedModel<MomentumPlant> {
     NamedModel::with("cubesat-12u.toml", CUBESAT)

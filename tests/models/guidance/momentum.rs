@@ -321,7 +321,7 @@ fn targets_count_on_the_scale_of_sunlight() {
 /// optics reaches the target.
 #[test]
 fn targets_go_by_the_optics_that_are_set() {
-    let shipped = include_str!("../../../../resources/messenger.toml");
+    let shipped = include_str!("../../../fmu-src/resources/messenger.toml");
     let aged = shipped
         .replace("specular = 0.52\ndiffuse = 0.07", "specular = 0.2\ndiffuse = 0.4")
         .replace("specular = 0.15\ndiffuse = 0.35", "specular = 0.4\ndiffuse = 0.1");

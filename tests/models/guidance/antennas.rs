@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use super::super::named_model::NamedModel;
 use super::{FREE, PLACED, to_inertial, with};
 
-const MESSENGER: &str = include_str!("../../../../resources/messenger.toml");
+const MESSENGER: &str = include_str!("../../../fmu-src/resources/messenger.toml");
 const DISH: &str = "\n[[antennas]]\nname = \"dish\"\naxis = [0.0, 0.6, 0.8]\nbeam_deg = [3.0, 3.0]\n";
 const TILTED: &str = "\n[[instruments]]\nname = \"tilted\"\nboresight = [1.0, 0.0, 0.0]\n\
                       gimbal = { axis = [0.0, 0.0, -1.0], minimum_deg = -10.0, maximum_deg = 70.0 }\n";

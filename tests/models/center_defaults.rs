@@ -11,7 +11,7 @@ use super::named_model::NamedModel;
 static LIBRARY: Library =
     Library { entries: &[entry::<MomentumPlant>(), entry::<DisturbanceTorque>(), entry::<Guidance>()] };
 
-const SAILER: &str = include_str!("../../../resources/examples/solar-sailer.toml");
+const SAILER: &str = include_str!("../../fmu-src/resources/examples/solar-sailer.toml");
 
 /// The sailer on the orbit that follows its centre.
 fn sailer() -> String {

@@ -6,7 +6,7 @@ use physics::constants::GM_MERCURY_M3_S2 as MU;
 
 use super::named_model::{NamedInstance, NamedModel, assert_cuts_change_nothing, assert_same};
 
-pub(crate) const MESSENGER_FULL: &str = include_str!("../../../resources/messenger-full.toml");
+pub(crate) const MESSENGER_FULL: &str = include_str!("../../fmu-src/resources/messenger-full.toml");
 const STANDARD_GRAVITY_M_S2: f64 = 9.80665;
 const LVA_ISP_S: f64 = 316.0;
 const C22_ISP_S: f64 = 234.0;

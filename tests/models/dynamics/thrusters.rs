@@ -9,7 +9,7 @@ use super::super::named_model::{NamedModel, assert_cuts_change_nothing};
 use super::super::spacecraft::{EXHAUST_M_S, SIMPLE, couples, thruster};
 use super::{CONTROLLED, DARK, FREE, PlantInstance, Start, initialize, set_quaternion, to_inertial};
 
-const FULL: &str = include_str!("../../../../resources/messenger-full.toml");
+const FULL: &str = include_str!("../../../fmu-src/resources/messenger-full.toml");
 
 fn with_thrusters(thrusters: &str) -> NamedModel<MomentumPlant> {
     NamedModel::<MomentumPlant>::with("simple.toml", &format!("{SIMPLE}{thrusters}"))

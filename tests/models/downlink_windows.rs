@@ -96,7 +96,7 @@ fn a_window_as_long_as_the_cycle_is_warned_of_whatever_the_strategy() {
 
 /// Greatest elevation of the Sun in deg, and of the planet off +Z; dumps; of ten days of the tutorial's spacecraft with these lines.
 fn of_tutorial(lines: &str, sets: &[(&str, f64)]) -> ([f64; 2], f64, Vec<String>) {
-    let text = include_str!("../../../../docs/src/tutorial/venus.toml");
+    let text = include_str!("../../docs/src/tutorial/venus.toml");
     let named = NamedModel::<MomentumPlant>::with("venus.toml", &format!("{text}\n{lines}"));
     let mut flight = named.initialize(0.0, sets).unwrap();
     let mut greatest_deg = [0.0_f64; 2];
