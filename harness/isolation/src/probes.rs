@@ -64,8 +64,7 @@ const SENSELESS_PATIENCE: Duration = Duration::from_secs(5);
 fn try_out(fmu: &Fmu, trial: &Trial, deadline: (Instant, f64)) -> Vec<Listed> {
     let soon = (Instant::now() + SENSELESS_PATIENCE, SENSELESS_PATIENCE.as_secs_f64());
     let deadline = if trial.senseless && soon.0 < deadline.0 { soon } else { deadline };
-    let mut findings: Vec<Listed> =
-        run(fmu, &trial.name(), deadline).into_iter().map(Into::into).collect();
+    let mut findings: Vec<Listed> = run(fmu, &trial.name(), deadline).into_iter().map(Into::into).collect();
     let hung = Instant::now() >= deadline.0;
     let bad = findings.iter_mut().map(|it| &mut it.finding).filter(|it| it.verdict == Verdict::Bad);
     for finding in bad {

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use fmi::conformance::Finding;
 use crate::system::System;
+use fmi::conformance::Finding;
 
 /// Returns the findings of a system; its FMUs are checked one by one by themselves.
 pub fn findings(path: &Path) -> Vec<Finding> {

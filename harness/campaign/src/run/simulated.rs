@@ -34,7 +34,9 @@ impl Simulated {
         let is_toml = |path: &Path| path.extension().is_some_and(|extension| extension == "toml");
         if !is_toml(&arguments.fmu) {
             if arguments.template.is_some() {
-                return Err("--template is for a mission (.toml): an FMU has its own library".to_owned().into());
+                return Err("--template is for a mission (.toml): an FMU has its own library"
+                    .to_owned()
+                    .into());
             }
             return Ok(Self { run: arguments.clone(), mission: None });
         }

@@ -41,7 +41,10 @@ pub(super) fn judged(arguments: &Check, file: &str) -> Result<Judged, Box<dyn Er
         Ok((summary, warnings)) => Judged::Taken { summary: format!("{file}: ok: {summary}"), warnings },
         Err(error) => {
             let error = error.as_ref();
-            Judged::Refused { problems: Refusal::new(error, fmi::Error::chain(error)), kind: kind.to_string() }
+            Judged::Refused {
+                problems: Refusal::new(error, fmi::Error::chain(error)),
+                kind: kind.to_string(),
+            }
         }
     })
 }

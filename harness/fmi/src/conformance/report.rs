@@ -28,10 +28,7 @@ pub struct Section {
 
 impl Section {
     /// Returns a section of these findings.
-    pub fn new(
-        title: impl Into<String>,
-        findings: impl IntoIterator<Item = impl Into<Listed>>,
-    ) -> Self {
+    pub fn new(title: impl Into<String>, findings: impl IntoIterator<Item = impl Into<Listed>>) -> Self {
         Self { title: title.into(), findings: findings.into_iter().map(Into::into).collect() }
     }
 

@@ -72,8 +72,7 @@ pub fn summary(timeline: &Timeline) -> String {
 /// # Errors
 /// Everything wrong in the file.
 pub fn checked(file: &str, text: &str) -> Result<String, Refusal> {
-    let spacecraft =
-        Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).map_err(refusal)?;
+    let spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).map_err(refusal)?;
     let instruments: Vec<&str> = spacecraft.instruments.iter().map(|it| it.name.as_str()).collect();
     let read = Timeline::from_toml(file, text, &spacecraft).map_err(refusal)?;
     let of_one = of_one_model(file, text, &spacecraft, &read);

@@ -40,11 +40,7 @@ fn variables(description: &Description, positions: &[usize]) -> (Vec<Value>, Map
 }
 
 /// Returns the object of a description, with the variables at these positions.
-pub fn object(
-    file: &str,
-    description: &Description,
-    positions: &[usize],
-) -> Value {
+pub fn object(file: &str, description: &Description, positions: &[usize]) -> Value {
     let (variables, options) = variables(description, positions);
     let experiment = description.default_experiment.map(|it| {
         json!({ "start_s": it.start_time, "stop_s": it.stop_time, "step_s": it.step_size, "tolerance": it.tolerance })
