@@ -1,12 +1,35 @@
-//! Limits of the production code inside the FMU: lines of a file and of a function, names of effects outside their sources, fields that
-//! a saved state leaves out.
+//! Limits of the production code: lines of a file and of a function, parameters; inside the FMU also names of effects outside their
+//! sources, fields that a saved state leaves out.
 
 use std::path::Path;
+
+use syn::visit::{self, Visit};
 
 use crate::sources::{rust_files, workspace};
 
 const MAX_LINES: usize = 400;
 const MAX_LINES_OF_A_FUNCTION: usize = 80;
+/// Beside the receiver. Inside the FMU clippy bounds them, and a function of the standard may have more.
+const MAX_PARAMETERS: usize = 5;
+
+/// Folders of the code inside the FMU.
+const CORE: &[&str] = &["fmu-src", "modelDescription"];
+
+/// Folders of the code around it.
+const HARNESS: &[&str] = &[
+    "harness/files",
+    "harness/terminal",
+    "harness/fmi",
+    "harness/systems",
+    "harness/drawing",
+    "harness/isolation",
+    "harness/packing",
+    "harness/inputs",
+    "harness/tables",
+    "harness/campaign",
+    "harness/cli",
+    "xtask",
+];
 
 /// A line of production code, with its file below the workspace and its number.
 struct Line {
@@ -79,7 +102,7 @@ fn functions_are_counted_from_head_to_end() {
 #[test]
 fn files_and_functions_keep_to_their_limits() {
     let mut beyond = Vec::new();
-    for file in ["fmu-src", "modelDescription"].iter().flat_map(|folder| production(folder)) {
+    for file in CORE.iter().chain(HARNESS).flat_map(|folder| production(folder)) {
         if file.len() > MAX_LINES {
             beyond.push(format!("{}: {} lines", file[0].file, file.len()));
         }
@@ -88,6 +111,37 @@ fn files_and_functions_keep_to_their_limits() {
                 beyond.push(format!("{}: a function of {count} lines", line.place()));
             }
         }
+    }
+    assert!(beyond.is_empty(), "{}", beyond.join("\n"));
+}
+
+/// Functions with their numbers of parameters beside the receiver.
+#[derive(Default)]
+struct Signatures(Vec<(String, usize)>);
+
+impl<'ast> Visit<'ast> for Signatures {
+    fn visit_signature(&mut self, signature: &'ast syn::Signature) {
+        let typed = signature.inputs.iter().filter(|input| matches!(input, syn::FnArg::Typed(_)));
+        self.0.push((signature.ident.to_string(), typed.count()));
+        visit::visit_signature(self, signature);
+    }
+}
+
+fn signatures(code: &str) -> Vec<(String, usize)> {
+    let mut found = Signatures::default();
+    found.visit_file(&syn::parse_file(code).unwrap());
+    found.0
+}
+
+#[test]
+fn functions_keep_to_their_number_of_parameters() {
+    let counted = signatures("fn a(b: (u8, u8), c: fn(u8, u8)) {} impl D { fn e(&mut self, f: u8) {} }");
+    assert_eq!(counted, [("a".to_owned(), 2), ("e".to_owned(), 1)]);
+    let mut beyond = Vec::new();
+    for file in HARNESS.iter().flat_map(|folder| production(folder)) {
+        let code: String = file.iter().map(|line| line.text.clone() + "\n").collect();
+        let many = signatures(&code).into_iter().filter(|(_, count)| *count > MAX_PARAMETERS);
+        beyond.extend(many.map(|(name, count)| format!("{}: {name} has {count} parameters", file[0].file)));
     }
     assert!(beyond.is_empty(), "{}", beyond.join("\n"));
 }

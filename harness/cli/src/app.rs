@@ -5,11 +5,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use files::outcome::Outcome;
 use inputs::home;
-use isolation::{Bounds, Relayed, SMALL, interrupt, large};
-use terminal::Screen;
+use isolation::{Bounds, Relayed, Request, SMALL, interrupt, large};
 
 use crate::{
     check, compare, completions, draw, ephemeris, info, manual, map, new, pack, plan, plot, refit,
@@ -67,35 +66,6 @@ enum Command {
     /// Print the manual's page of the program or of a command
     #[command(hide = true)]
     Man(manual::Manual),
-    /// Runs one probe of `check` in a process of its own
-    #[command(hide = true, name = "probe-in-child")]
-    Probe(check::Probe),
-    /// Runs an FMU for `run` in a process of its own
-    #[command(hide = true)]
-    RunInChild(simulation::RunInChild),
-    /// Simulates runs for `sweep` in a process of its own
-    #[command(hide = true)]
-    SweepInChild(sweep::SweepInChild),
-    /// Carries out a command that loads a library in a process of its own
-    #[command(hide = true)]
-    InChild(InChild),
-    /// Puts the FMU of a mission's files together for `run`
-    #[command(hide = true)]
-    Assemble(simulation::Assemble),
-}
-
-/// `heliotorque in-child`.
-#[derive(Debug, Args)]
-struct InChild {
-    /// Columns of the terminal that shows the output
-    #[arg(long)]
-    output_columns: Option<u16>,
-    /// Columns of the terminal that shows notes
-    #[arg(long)]
-    note_columns: Option<u16>,
-    /// The command
-    #[arg(last = true)]
-    arguments: Vec<OsString>,
 }
 
 /// The program as clap knows it.
@@ -113,22 +83,37 @@ fn parsed(arguments: &[OsString]) -> Result<Command, clap::Error> {
 /// Parses the arguments and runs the command.
 pub(crate) fn run() -> Outcome {
     let arguments: Vec<OsString> = std::env::args_os().skip(1).collect();
-    let command = parsed(&arguments).unwrap_or_else(|error| usage::end(&program(), &arguments, error));
-    match &command {
-        // A child is ended by its parent.
-        Command::Probe(_) | Command::RunInChild(_) | Command::SweepInChild(_) => {}
-        Command::InChild(InChild { output_columns, note_columns, arguments }) => {
-            let screen = Screen { output_columns: *output_columns, note_columns: *note_columns };
-            return isolation::serve(screen, || carry_out(parsed(arguments)?));
-        }
-        // What was recorded until then is written.
-        command => {
-            interrupt::listen(matches!(command, Command::Run(_) | Command::Sweep(_)), isolation::end_all)?
-        }
+    if arguments == [isolation::CHILD] {
+        return run_in_child();
     }
+    let command = parsed(&arguments).unwrap_or_else(|error| usage::end(&program(), &arguments, error));
+    // What was recorded until then is written.
+    interrupt::listen(matches!(command, Command::Run(_) | Command::Sweep(_)), isolation::end_all)?;
     match loading(&command) {
-        Some(relayed) => relayed.run(arguments),
+        Some(relayed) => relayed.run(Request::Command(arguments)),
         None => carry_out(command),
+    }
+}
+
+/// Does what a parent requests, which ends this process.
+fn run_in_child() -> Outcome {
+    let (link, request) = isolation::attach()?;
+    match request {
+        Request::Command(arguments) => link.relay(|| carry_out(parsed(&arguments)?)),
+        Request::Assemble { mission, file, template, into } => link.relay(|| {
+            campaign::run::assemble_into(
+                [Path::new(&mission), Path::new(&file)],
+                template.as_ref().map(Path::new),
+                Path::new(&into),
+            )
+        }),
+        Request::Probe { folder, name } => isolation::probes::run_in_child(link, Path::new(&folder), &name),
+        Request::Run { arguments, folder, input_copy } => {
+            let Command::Run(run) = parsed(&arguments)? else { return Err("a run's request is none".into()) };
+            let input_copy = input_copy.as_ref().map(Path::new);
+            campaign::run::run_in_child(link, Path::new(&folder), input_copy, &run.request())
+        }
+        Request::Sweep(runs) => campaign::sweep::run_in_child(link, &runs),
     }
 }
 
@@ -178,12 +163,9 @@ fn carry_out(mut command: Command) -> Outcome {
     match command {
         Command::Info(arguments) => info::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
-        Command::Probe(arguments) => check::run_probe(&arguments),
         Command::Run(arguments) => simulation::run(&arguments),
         Command::Wire(arguments) => wire::run(&arguments),
-        Command::RunInChild(arguments) => simulation::run_in_child(arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
-        Command::SweepInChild(arguments) => sweep::run_in_child(arguments),
         Command::New(arguments) => new::run(&arguments),
         Command::Man(arguments) => manual::run(&arguments, program()),
         Command::Draw(arguments) => draw::run(&arguments),
@@ -197,8 +179,6 @@ fn carry_out(mut command: Command) -> Outcome {
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Refit(arguments) => refit::run(&arguments),
         Command::Study(arguments) => study::run(&arguments),
-        Command::Assemble(arguments) => simulation::assemble_into(&arguments),
-        Command::InChild(_) => Err("in-child: found another one in it, allowed: a command".into()),
     }
 }
 

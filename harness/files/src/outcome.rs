@@ -5,7 +5,7 @@ use std::{error::Error, fmt};
 use crate::Destination;
 
 /// Answer of a command that came to its end, by its exit status; one that did not ends with [`TROUBLE`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[repr(u8)]
 pub enum Answer {
     /// Done.
@@ -32,13 +32,6 @@ pub const STATUSES: [(&str, &str); 4] = [
 
 /// The answer of a command, or why it could not be found.
 pub type Outcome = Result<Answer, Box<dyn Error>>;
-
-impl Answer {
-    /// Returns the answer of this status.
-    pub fn of_status(status: u8) -> Option<Self> {
-        [Self::Yes, Self::No, Self::Interrupted].into_iter().find(|it| *it as u8 == status)
-    }
-}
 
 impl From<bool> for Answer {
     fn from(is_so: bool) -> Self {

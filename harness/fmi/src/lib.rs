@@ -51,11 +51,11 @@ pub use recording::{Column, Recording};
 pub use requirements::Requirements;
 pub use select::{select, select_outputs};
 pub use simulate::{
-    Ended, Options, RecordedPoints, Simulation, Stopped, initialize, outputs, set_early, simulate,
-    simulate_instance, simulate_into, simulate_with,
+    Ended, Options, Simulation, Stopped, initialize, outputs, set_early, simulate, simulate_instance,
+    simulate_into, simulate_with,
 };
 pub use status::{LogMessage, warnings};
-pub use times::Times;
+pub use times::{RecordedPoints, Times};
 pub use uri::file_uri;
 pub use values::{Assigned, assignment, parse_assignment, parse_value};
 pub use watch::Watcher;

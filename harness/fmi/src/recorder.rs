@@ -1,6 +1,9 @@
 //! Takes the rows of a recording from an instance, and bounds how many there may be.
 
+use std::borrow::Cow;
+
 use model_description::{BaseType, Description, value::unit};
+use serde::{Deserialize, Serialize};
 
 use crate::{Column, Error, Fmu, Instance, Recording, Value};
 
@@ -22,18 +25,25 @@ fn column_bytes(column: &Column) -> u64 {
 }
 
 /// One row of a recording: its time, and the recorded variables of each base type in their order.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Row<'a> {
     /// Time in s.
     pub time_s: f64,
     /// Reals, in their units.
-    pub reals: &'a [f64],
+    pub reals: Cow<'a, [f64]>,
     /// Integers and Enumerations.
-    pub integers: &'a [i32],
+    pub integers: Cow<'a, [i32]>,
     /// Booleans; 0 is false.
-    pub booleans: &'a [i32],
+    pub booleans: Cow<'a, [i32]>,
     /// Strings.
-    pub texts: &'a [String],
+    pub texts: Cow<'a, [String]>,
+}
+
+impl Row<'_> {
+    /// How many values of each base type it has: Reals, Integers, Booleans, Strings.
+    pub fn widths(&self) -> [usize; 4] {
+        [self.reals.len(), self.integers.len(), self.booleans.len(), self.texts.len()]
+    }
 }
 
 /// Recipient of rows as they are recorded.
@@ -181,8 +191,9 @@ impl Reader {
         if !booleans.columns.is_empty() {
             instance.get_booleans(&booleans.references, &mut self.booleans)?;
         }
-        let Self { reals, integers, booleans, .. } = self;
-        rows.take(&Row { time_s, reals, integers, booleans, texts: &texts })?;
+        let (reals, texts) = (Cow::from(&self.reals), Cow::from(&texts));
+        let [integers, booleans] = [&self.integers, &self.booleans].map(Cow::from);
+        rows.take(&Row { time_s, reals, integers, booleans, texts })?;
         rows.sets().iter().try_for_each(|(name, value)| instance.set(name, value))
     }
 }

@@ -89,3 +89,44 @@ impl Times {
         if k >= self.steps() { self.stop_s } else { self.start_s + k as f64 * self.step_s }
     }
 }
+
+/// Communication points that are recorded: the start, the point nearest to every whole multiple of a time after it, and the last
+/// one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RecordedPoints {
+    /// Time between two of them, in steps; at least one.
+    spacing: f64,
+    steps: u64,
+}
+
+impl RecordedPoints {
+    /// Points of a run: all where no time is given.
+    ///
+    /// # Errors
+    /// A time below 0.
+    pub fn new(times: &Times, every_s: Option<f64>) -> Result<Self, Error> {
+        let spacing = match every_s {
+            None => 1.0,
+            Some(every_s) if every_s >= 0.0 => (every_s / times.step_s).max(1.0),
+            Some(every_s) => {
+                return Err(Error::Times(format!(
+                    "recording every {every_s} s is not possible, allowed: 0 s (at every step) or longer: see --every"
+                )));
+            }
+        };
+        Ok(Self { spacing, steps: times.steps() })
+    }
+
+    /// Whether communication point `k` is one.
+    pub fn contain(&self, k: u64) -> bool {
+        let multiple = (k as f64 / self.spacing).round();
+        k == self.steps || (multiple * self.spacing).round() == k as f64
+    }
+
+    /// How many they are.
+    pub fn count(&self) -> u64 {
+        // A multiple half a step after a point belongs to the next one.
+        let multiples = ((self.steps as f64 + 0.5) / self.spacing).ceil() as u64;
+        multiples + u64::from(((multiples - 1) as f64 * self.spacing).round() != self.steps as f64)
+    }
+}

@@ -1,12 +1,13 @@
 //! An FMU in a process of its own: this program again, supervised from outside.
 //!
-//! Parent and child share one memory without a name. In it the child records the FMI call in progress and sends frames:
-//! rows of a recording, findings of a probe, what a whole command shows, its end. What stands there after a crash is still read. Whatever the
-//! FMU prints goes through pipes of its own and is never taken for a frame.
+//! Parent and child share one memory without a name. From it the child reads its request, in it the child records the FMI call in
+//! progress and sends frames: rows of a recording, findings of a probe, what a whole command shows, its end. What stands there after
+//! a crash is still read. Whatever the FMU prints goes through pipes of its own and is never taken for a frame.
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "tests make their own files"))]
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
 mod channel;
+mod frame;
 pub mod interrupt;
 mod limits;
 mod printed;
@@ -15,23 +16,18 @@ mod relayed;
 mod supervisor;
 mod system;
 
-use std::{ffi::OsString, path::Path};
-
-pub use channel::{Link, NOT_REQUESTED, Payload, push_text};
+pub use channel::{Link, attach};
+pub use frame::{Frame, NOT_REQUESTED, Request, Runs};
 pub use limits::{ResourceLimits, SMALL};
 pub use printed::Shown;
-pub use relayed::{Relayed, is_child, serve};
+pub use relayed::{Relayed, is_child};
 pub use supervisor::{Bounds, ChildProcess, EndReason, Supervised};
 pub use system::end_all;
+
+/// The only argument of a child process.
+pub const CHILD: &str = "in-child";
 
 /// Limits of each of `processes` simulations at a time, by the memory that is available now.
 pub fn large(processes: u64) -> ResourceLimits {
     limits::large(processes, system::available_bytes())
-}
-
-/// An option with a path, which may hold any bytes.
-pub fn path_option(name: &str, path: &Path) -> OsString {
-    let mut option = OsString::from(name);
-    option.push(path);
-    option
 }

@@ -1,7 +1,7 @@
 //! Resource limits of a child process.
 
 /// Resource limits of a child process.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, serde::Serialize, serde::Deserialize)]
 pub struct ResourceLimits {
     /// Memory, in bytes.
     pub memory: Option<u64>,

@@ -1,7 +1,6 @@
 //! Probes of an FMU, each in a process of its own, and their findings.
 
 use std::{
-    ffi::OsString,
     path::Path,
     time::{Duration, Instant},
 };
@@ -16,14 +15,11 @@ use fmi::{
 };
 
 use crate::{
-    channel::{Link, Payload, push_text},
+    channel::Link,
+    frame::{Frame, Request},
     limits::SMALL,
     supervisor::{Bounds, ChildProcess},
 };
-
-/// Kinds of frames: a finding, the probe's end.
-const FINDING: u8 = 1;
-const FINISHED: u8 = 2;
 
 /// Findings of a probe at most, and the length of one in bytes.
 const FINDINGS: usize = 10_000;
@@ -80,58 +76,48 @@ fn try_out(fmu: &Fmu, trial: &Trial, deadline: (Instant, f64)) -> Vec<Listed> {
 fn run(fmu: &Fmu, probe: &str, deadline: (Instant, f64)) -> Vec<Finding> {
     let started = || {
         // What a probe leaves when it is ended goes with this folder.
-        let scratch = Scratch::new()?;
-        let arguments = [OsString::from("probe-in-child"), fmu.folder().into(), probe.into()];
-        Ok::<_, std::io::Error>((ChildProcess::new(arguments, SMALL, Some(scratch.path()))?, scratch))
+        let scratch = Scratch::new().map_err(|error| error.to_string())?;
+        let request = Request::Probe { folder: fmu.folder().into(), name: probe.to_owned() };
+        Ok::<_, String>((ChildProcess::new(request, SMALL, Some(scratch.path()))?, scratch))
     };
     match started() {
         Ok((child, _scratch)) => supervise(child, deadline),
-        Err(error) => vec![Finding::bad(format!("the probe cannot be started: {error}"))],
+        Err(error) => vec![Finding::bad(error)],
     }
 }
 
 /// Runs one probe or trial in this process and sends its findings to the parent.
 ///
 /// # Errors
-/// No parent, no FMU, no such probe.
-pub fn run_in_child(fmu: &Path, probe: &str) -> Outcome {
-    let mut link = Link::attach("heliotorque check")?;
-    let fmu = Fmu::open(fmu)?;
-    let findings =
-        fmi::conformance::run(&fmu, probe).ok_or_else(|| format!("there is no probe {probe:?}"))?;
-    for finding in &findings {
-        link.send(FINDING, |payload| {
-            payload.push(finding.verdict as u64);
-            let text = &finding.text;
-            let cut = text.floor_char_boundary(LENGTH);
-            push_text(payload, &if cut < text.len() { format!("{}...", &text[..cut]) } else { text.clone() });
-        })?;
-    }
-    link.send(FINISHED, |_| {})?;
-    Ok(Answer::Yes)
-}
-
-fn decode(mut payload: Payload<'_>) -> Option<Finding> {
-    let verdict = payload.word()?;
-    let verdict = Verdict::ALL.into_iter().find(|it| *it as u64 == verdict)?;
-    Some(Finding::new(verdict, payload.text()?))
+/// A parent that went away.
+pub fn run_in_child(link: Link, folder: &Path, name: &str) -> Outcome {
+    link.answer(|link| {
+        let fmu = Fmu::open(folder)?;
+        let findings =
+            fmi::conformance::run(&fmu, name).ok_or_else(|| format!("there is no probe {name:?}"))?;
+        for mut finding in findings {
+            let cut = finding.text.floor_char_boundary(LENGTH);
+            if cut < finding.text.len() {
+                finding.text.replace_range(cut.., "...");
+            }
+            link.send(&Frame::Finding(finding))?;
+        }
+        Ok(Some(Frame::Done(Answer::Yes)))
+    })
 }
 
 fn supervise(child: ChildProcess, deadline: (Instant, f64)) -> Vec<Finding> {
     let mut findings = Vec::new();
     let mut finished = false;
-    let mut take = |kind: u8, payload: Payload<'_>| match kind {
-        FINISHED => {
-            finished = true;
-            Ok(true)
+    let mut take = |frame: Frame<'_>| {
+        match frame {
+            Frame::Done(_) => finished = true,
+            Frame::Failed(why) => return Err(why.into_owned()),
+            Frame::Finding(finding) if findings.len() < FINDINGS => findings.push(finding),
+            Frame::Finding(_) => return Err(format!("it sent more than {FINDINGS} findings")),
+            _ => return Err("it sent what is no finding".to_owned()),
         }
-        FINDING if findings.len() < FINDINGS => {
-            let finding = decode(payload).ok_or("it sent what is no finding")?;
-            findings.push(finding);
-            Ok(false)
-        }
-        FINDING => Err(format!("it sent more than {FINDINGS} findings")),
-        _ => Err("it sent what is no finding".to_owned()),
+        Ok(finished)
     };
     let bounds = Bounds { deadline: Some(deadline), call_s: None, printed: Some(PRINTED) };
     let supervised = child.supervise(bounds, &mut take, &mut |_| {}, &mut |_| Ok(()));

@@ -1,7 +1,6 @@
 //! A command that loads an FMU's library, in a process of its own: this one shows what that one has to show.
 
 use std::{
-    ffi::OsString,
     io::{self, Write},
     sync::{
         Arc, Mutex, PoisonError,
@@ -13,21 +12,15 @@ use files::{
     Scratch,
     outcome::{Answer, Outcome},
 };
-use terminal::{Relay, Screen};
+use terminal::Relay;
 
 use super::{
-    channel::{Link, NOT_REQUESTED, Payload, push_bytes, push_text},
+    channel::Link,
+    frame::{Frame, NOT_REQUESTED, Request},
     limits::ResourceLimits,
     printed::Shown,
     supervisor::{Bounds, ChildProcess},
 };
-
-/// Kinds of frames: bytes of the standard output, a note, a progress bar, the end of the command, its failure.
-const OUTPUT: u8 = 1;
-const NOTE: u8 = 2;
-const BAR: u8 = 3;
-const ENDED: u8 = 4;
-const FAILED: u8 = 5;
 
 /// Bytes of the standard output in one frame.
 const AT_ONCE: usize = 1 << 20;
@@ -51,28 +44,21 @@ pub struct Relayed {
 }
 
 impl Relayed {
-    /// Runs this program with these arguments in a child and gives its exit status or the error it failed with; a child that
-    /// ends otherwise is an error with the call it was in.
-    pub fn run(&self, arguments: impl IntoIterator<Item = OsString>) -> Outcome {
+    /// Hands a request to a child and gives its answer or the error it failed with; a child that ends otherwise is an error with
+    /// the call it was in.
+    pub fn run(&self, request: Request) -> Outcome {
         // What the child leaves when it is ended goes with this folder.
         let scratch = Scratch::new()?;
-        let Screen { output_columns, note_columns } = terminal::screen();
-        let columns = |name: &str, columns: Option<u16>| {
-            columns.map(|columns| OsString::from(format!("--{name}-columns={columns}")))
-        };
-        let own = [Some("in-child".into()), columns("output", output_columns), columns("note", note_columns)];
-        let own = own.into_iter().flatten().chain([OsString::from("--")]);
-        let child = ChildProcess::new(own.chain(arguments), self.limits, Some(scratch.path()))
-            .map_err(|error| format!("the process of the FMU cannot be started: {error}"))?;
+        let child = ChildProcess::new(request, self.limits, Some(scratch.path()))?;
         let mut ended: Option<Result<Answer, String>> = None;
         let mut shown = Shown::new(&self.name);
         let supervised = child.supervise(
             self.bounds,
-            &mut |kind, payload| {
+            &mut |frame| {
                 if ended.is_some() {
                     return Err(NOT_REQUESTED.to_owned());
                 }
-                ended = take(kind, payload)?;
+                ended = take(frame)?;
                 Ok(ended.is_some())
             },
             &mut |line| shown.line(line),
@@ -92,68 +78,74 @@ impl Relayed {
     }
 }
 
-/// Shows a frame; the exit status or the failure with the last one.
-fn take(kind: u8, mut payload: Payload<'_>) -> Result<Option<Result<Answer, String>>, String> {
-    match kind {
-        OUTPUT => {
-            let bytes = payload.bytes().ok_or(NOT_REQUESTED)?;
-            match terminal::Output.write_all(&bytes).and_then(|()| terminal::Output.flush()) {
+/// Shows a frame; the answer or the failure with the last one.
+fn take(frame: Frame<'_>) -> Result<Option<Result<Answer, String>>, String> {
+    match frame {
+        Frame::Output(bytes) => {
+            match terminal::Output.write_all(bytes).and_then(|()| terminal::Output.flush()) {
                 Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
                     return Err(format!("standard output: {error}"));
                 }
                 _ => {}
             }
         }
-        NOTE => terminal::note(&payload.text().ok_or(NOT_REQUESTED)?),
-        BAR => terminal::show_bar(&payload.text().ok_or(NOT_REQUESTED)?),
-        ENDED => {
-            let status = payload.word().and_then(|status| u8::try_from(status).ok());
-            return Ok(Some(Ok(status.and_then(Answer::of_status).ok_or(NOT_REQUESTED)?)));
-        }
-        FAILED => return Ok(Some(Err(payload.text().ok_or(NOT_REQUESTED)?))),
+        Frame::Note(text) => terminal::note(text),
+        Frame::Bar(text) => terminal::show_bar(text),
+        Frame::Done(answer) => return Ok(Some(Ok(answer))),
+        Frame::Failed(why) => return Ok(Some(Err(why.into_owned()))),
         _ => return Err(NOT_REQUESTED.to_owned()),
     }
     Ok(None)
 }
 
-/// Carries out a command in this process for the parent that started it, which shows everything on its screen.
-pub fn serve(screen: Screen, command: impl FnOnce() -> Outcome) -> Outcome {
-    let link = Arc::new(Mutex::new(Link::attach("heliotorque")?));
-    IS_CHILD.store(true, Ordering::Relaxed);
-    terminal::relay_to(Box::new(ToParent(Arc::clone(&link))), screen);
-    let outcome = command();
-    let mut link = link.lock().unwrap_or_else(PoisonError::into_inner);
-    match outcome {
-        Ok(answer) => link.send(ENDED, |payload| payload.push(answer as u64))?,
-        Err(error) => {
-            let text = fmi::Error::chain(error.as_ref());
-            link.send(FAILED, |payload| push_text(payload, &text))?;
-        }
+impl Link {
+    /// Performs a task and sends what it ends with, its failure too; nothing where the parent is to see that it did not end.
+    pub fn answer<'a>(
+        mut self,
+        task: impl FnOnce(&mut Self) -> Result<Option<Frame<'a>>, Box<dyn std::error::Error>>,
+    ) -> Outcome {
+        let last = task(&mut self).unwrap_or_else(|error| Some(failed(error.as_ref())));
+        last.map_or(Ok(()), |last| self.send(&last))?;
+        // The parent has the answer; how this process ends tells whether the library let it.
+        Ok(Answer::Yes)
     }
-    // The parent has the status; how this process ends tells whether the library let it.
-    Ok(Answer::Yes)
+
+    /// Carries out a command for the parent, which shows everything on its screen.
+    pub fn relay(self, command: impl FnOnce() -> Outcome) -> Outcome {
+        let screen = self.screen;
+        let link = Arc::new(Mutex::new(self));
+        IS_CHILD.store(true, Ordering::Relaxed);
+        terminal::relay_to(Box::new(ToParent(Arc::clone(&link))), screen);
+        let last = command().map_or_else(|error| failed(error.as_ref()), Frame::Done);
+        link.lock().unwrap_or_else(PoisonError::into_inner).send(&last)?;
+        Ok(Answer::Yes)
+    }
+}
+
+fn failed(error: &dyn std::error::Error) -> Frame<'static> {
+    Frame::Failed(fmi::Error::chain(error).into())
 }
 
 /// Hands everything that is shown to the parent.
 struct ToParent(Arc<Mutex<Link>>);
 
 impl ToParent {
-    fn send(&self, kind: u8, payload: impl FnOnce(&mut Vec<u64>)) -> io::Result<()> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).send(kind, payload).map_err(io::Error::other)
+    fn send(&self, frame: &Frame<'_>) -> io::Result<()> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).send(frame).map_err(io::Error::other)
     }
 }
 
 impl Relay for ToParent {
     fn output(&self, bytes: &[u8]) -> io::Result<()> {
-        bytes.chunks(AT_ONCE).try_for_each(|chunk| self.send(OUTPUT, |payload| push_bytes(payload, chunk)))
+        bytes.chunks(AT_ONCE).try_for_each(|chunk| self.send(&Frame::Output(chunk)))
     }
 
     fn note(&self, text: &str) {
         // Nobody there to read it is no error.
-        let _ = self.send(NOTE, |payload| push_text(payload, text));
+        let _ = self.send(&Frame::Note(text));
     }
 
     fn bar(&self, text: &str) -> io::Result<()> {
-        self.send(BAR, |payload| push_text(payload, text))
+        self.send(&Frame::Bar(text))
     }
 }

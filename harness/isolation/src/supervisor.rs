@@ -1,7 +1,6 @@
 //! Starts a child and supervises it until it ends, or ends it.
 
 use std::{
-    ffi::OsString,
     io,
     path::Path,
     process::{Child, Command, ExitStatus, Stdio},
@@ -11,7 +10,9 @@ use std::{
 use fmi::{CallRecord, RecordedCalls};
 
 use super::{
-    channel::{Inbox, Payload, RING_WORDS},
+    CHILD,
+    channel::{Inbox, RING_WORDS},
+    frame::{Frame, Request},
     limits::ResourceLimits,
     printed::Printed,
     system,
@@ -147,15 +148,19 @@ pub struct ChildProcess {
 }
 
 impl ChildProcess {
-    /// Starts this program with these arguments, its temporary files in a folder of their own if one is given.
-    pub fn new(
-        arguments: impl IntoIterator<Item = OsString>,
-        limits: ResourceLimits,
-        temporary: Option<&Path>,
-    ) -> io::Result<Self> {
-        let (file, inbox) = Inbox::create(limits.memory, limits.files)?;
+    /// Starts this program with a request, its temporary files in a folder of their own if one is given.
+    ///
+    /// # Errors
+    /// A process that cannot be started, as the message says.
+    pub fn new(request: Request, limits: ResourceLimits, temporary: Option<&Path>) -> Result<Self, String> {
+        Self::start(request, limits, temporary)
+            .map_err(|error| format!("the process of the FMU cannot be started: {error}"))
+    }
+
+    fn start(request: Request, limits: ResourceLimits, temporary: Option<&Path>) -> io::Result<Self> {
+        let (file, inbox) = Inbox::create(request, limits)?;
         let mut command = Command::new(std::env::current_exe()?);
-        command.args(arguments).stdin(file).stdout(Stdio::piped()).stderr(Stdio::piped());
+        command.arg(CHILD).stdin(file).stdout(Stdio::piped()).stderr(Stdio::piped());
         command
             .envs(temporary.iter().flat_map(|folder| ["TMPDIR", "TMP", "TEMP"].map(|name| (name, folder))));
         let mut child = system::spawn(&mut command, limits)?;
@@ -173,7 +178,7 @@ impl ChildProcess {
     pub fn supervise(
         mut self,
         bounds: Bounds,
-        take: &mut dyn FnMut(u8, Payload<'_>) -> Result<bool, String>,
+        take: &mut dyn FnMut(Frame<'_>) -> Result<bool, String>,
         line: &mut dyn FnMut(&str),
         tick: &mut dyn FnMut(Option<&CallRecord>) -> Result<(), String>,
     ) -> Supervised {
@@ -195,7 +200,7 @@ impl ChildProcess {
     fn follow(
         &mut self,
         bounds: Bounds,
-        take: &mut dyn FnMut(u8, Payload<'_>) -> Result<bool, String>,
+        take: &mut dyn FnMut(Frame<'_>) -> Result<bool, String>,
         line: &mut dyn FnMut(&str),
         tick: &mut dyn FnMut(Option<&CallRecord>) -> Result<(), String>,
     ) -> Option<EndReason> {
@@ -207,8 +212,8 @@ impl ChildProcess {
             // Before its frames are taken: what it sent until its end is then complete.
             let ended = system::has_ended(&mut self.child).unwrap_or(true);
             let mut is_last = false;
-            let came = self.inbox.drain(&mut |kind, payload| {
-                is_last |= take(kind, payload)?;
+            let came = self.inbox.drain(&mut |frame| {
+                is_last |= take(frame)?;
                 Ok(())
             });
             let came = match came {

@@ -11,3 +11,4 @@ pub mod instance;
 pub mod manual;
 pub mod overview;
 pub mod pointing;
+pub mod visits;

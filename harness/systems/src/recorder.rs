@@ -1,5 +1,7 @@
 //! Rows of a system's recording: every component read by one call a base type.
 
+use std::borrow::Cow;
+
 use fmi::{Error, Instance, Row, Rows};
 use model_description::Causality;
 
@@ -92,7 +94,8 @@ impl Recorder {
                 scatter(&read, &texts.places, &mut self.texts);
             }
         }
-        let Self { reals, integers, booleans, texts, .. } = self;
+        let (reals, texts) = (Cow::from(&self.reals), Cow::from(&self.texts));
+        let [integers, booleans] = [&self.integers, &self.booleans].map(Cow::from);
         rows.take(&Row { time_s, reals, integers, booleans, texts })
     }
 }

@@ -6,7 +6,6 @@ pub mod options;
 mod settings;
 mod simulated;
 mod subject;
-mod visits;
 
 use std::{
     error::Error,
@@ -17,21 +16,24 @@ use std::{
 };
 
 pub use checked::checked;
-pub use child::{RunInChild, run as run_in_child};
-pub(crate) use child::{push_row, take_row};
+pub use child::run as run_in_child;
+pub(crate) use child::take_row;
 use files::{
     Destination, Scratch,
-    outcome::{Answer, Outcome},
+    outcome::{self, Answer, Outcome},
 };
-use fmi::{Collector, Ended, RecordedPoints, Times};
+use fmi::{Collector, Ended, LogMessage, RecordedPoints, Times};
 use inputs::{ending::by_ending, epoch, variables};
 use isolation::Bounds;
 pub use options::Run;
-use packing::{carried, pointing};
+use packing::{
+    carried, pointing,
+    visits::{self, VisitTable},
+};
 pub use settings::Settings;
 pub use simulated::{Simulated, assemble_into};
 pub use subject::Subject;
-use tables::output::{self, Known, LimitChecks, Origin, Outputs, VisitTable};
+use tables::output::{self, Known, LimitChecks, Origin, Outputs};
 
 /// Warnings of an FMU that are shown without `--log`.
 const MAX_WARNINGS: usize = 20;
@@ -59,6 +61,25 @@ pub struct Prepared {
 }
 
 impl Prepared {
+    /// Tells what looks odd before the run.
+    fn note_warnings(&self) {
+        let Self { simulated: Simulated { run, .. }, subject, settings, .. } = self;
+        if run.quiet {
+            return;
+        }
+        let Settings { times, sets, inputs, .. } = settings;
+        let described = subject.description();
+        let every_s = run.every.unwrap_or(times.step_s);
+        carried::timeline::warnings(described, sets, &subject.parts())
+            .into_iter()
+            .chain(variables::repeated("--set", &run.set))
+            .chain(long_step(times))
+            .chain(subject.unread(sets))
+            .chain(inputs.iter().flat_map(|it| it.warnings(described, times)))
+            .chain(pointing::sparse_rows(described, sets, times, every_s))
+            .for_each(|warning| terminal::note(&format!("warning: {warning}")));
+    }
+
     /// Opens the FMU and every output.
     ///
     /// # Errors
@@ -88,7 +109,8 @@ impl Prepared {
         let reads = simulated.reads();
         let has_visits = carried::timeline::names(&subject.folder()).is_some_and(|names| !names.is_empty());
         let table = settings.requested.table.as_ref().filter(|_| has_visits);
-        let visits = table.map(|table| output::open_visits(table, &reads)).transpose()?.flatten();
+        let visits = table.map(|table| output::open_beside(table, ("visits", visits::HEADER), &reads));
+        let visits = visits.transpose()?.flatten();
         let outputs = Outputs::open(&settings.requested, collector.recording(), &known, (&origin, &reads))?;
         let points = RecordedPoints::new(&settings.times, simulated.run.every)?.count();
         collector.fits(points)?;
@@ -119,39 +141,53 @@ pub fn long_step(times: &Times) -> Option<String> {
     })
 }
 
+/// Makes the file of calls empty, to which the child appends.
+fn begin_call_log(simulated: &Simulated) -> Result<(), String> {
+    let Some(path) = &simulated.run.log_calls else { return Ok(()) };
+    let log = Destination::open(path, "--log-calls", &simulated.reads())?;
+    if log.is_stdout() {
+        return Err("-: found the standard output, allowed: a file: see --log-calls".to_owned());
+    }
+    log.fill(|_| Ok(()))
+}
+
+/// Shows the FMU's log, or its first warnings.
+fn note_log(messages: &[LogMessage], arguments: &Run) {
+    if arguments.log {
+        messages.iter().for_each(|it| terminal::note(&format!("{} {it}", it.status)));
+    } else if !arguments.quiet {
+        let logged = fmi::warnings(messages);
+        logged.iter().take(MAX_WARNINGS).for_each(|text| terminal::note(&format!("warning: {text}")));
+        if let Some(more) = logged.len().checked_sub(MAX_WARNINGS).filter(|more| *more > 0) {
+            terminal::note(&format!("warning: {more} more: see --log"));
+        }
+    }
+}
+
+/// Shows the visits and writes them to their file.
+fn write_visits(table: &VisitTable<'_>, file: Option<Destination>, is_quiet: bool) -> Result<(), String> {
+    if !is_quiet {
+        terminal::note(&table.shown());
+    }
+    outcome::write_all(file.map(|file| (file, table.csv())), is_quiet)
+}
+
 /// Runs in a child process.
 pub fn run(arguments: &Run) -> Outcome {
     let prepared = Prepared::new(arguments)?;
+    prepared.note_warnings();
     let Prepared { simulated, subject, settings, points, mut outputs, visits, input_copy, _scratch } =
         prepared;
     let arguments = &simulated.run;
     let described = subject.description();
-    let mut warnings = carried::timeline::warnings(described, &settings.sets, &subject.parts());
-    warnings.extend(variables::repeated("--set", &arguments.set));
-    warnings.extend(long_step(&settings.times));
-    warnings.extend(subject.unread(&settings.sets));
-    warnings.extend(settings.inputs.iter().flat_map(|it| it.warnings(described, &settings.times)));
     let zero_epoch_s = simulated.zero_epoch_s(settings.times.start_s);
-    let every_s = arguments.every.unwrap_or(settings.times.step_s);
-    warnings.extend(pointing::sparse_rows(described, &settings.sets, &settings.times, every_s));
     let Settings { times, positions, limits, requested, .. } = settings;
-    if !arguments.quiet {
-        warnings.iter().for_each(|warning| terminal::note(&format!("warning: {warning}")));
-    }
     let has_limits = !limits.is_empty();
     let mut checks = LimitChecks::new(limits);
     let mut collector = Collector::new(described, &positions);
-    if let Some(path) = &arguments.log_calls {
-        let log = Destination::open(path, "--log-calls", &simulated.reads())?;
-        if log.is_stdout() {
-            return Err("-: found the standard output, allowed: a file: see --log-calls".into());
-        }
-        log.fill(|_| Ok(()))?;
-    }
-    let child = child::start(&subject, input_copy.as_deref())
-        .map_err(|error| format!("the process of the FMU cannot be started: {error}"))?;
+    begin_call_log(&simulated)?;
+    let child = child::start(&subject, input_copy.as_deref())?;
     let bounds = Bounds { call_s: arguments.timeout, ..Bounds::default() };
-
     let progress = terminal::progress((times.stop_s - times.start_s) as u64, "s", arguments.quiet);
     let began = Instant::now();
     let result = child::simulate(child, &subject, (bounds, points), &mut collector, |recording, time_s| {
@@ -164,19 +200,9 @@ pub fn run(arguments: &Run) -> Outcome {
     });
     let elapsed = began.elapsed();
     progress.finish_and_clear();
-
     let recording = collector.recording();
     checks.update(recording);
-    let logged = fmi::warnings(&result.messages);
-    if !arguments.quiet && !arguments.log {
-        logged.iter().take(MAX_WARNINGS).for_each(|text| terminal::note(&format!("warning: {text}")));
-        if let Some(more) = logged.len().checked_sub(MAX_WARNINGS).filter(|more| *more > 0) {
-            terminal::note(&format!("warning: {more} more: see --log"));
-        }
-    }
-    if arguments.log {
-        result.messages.iter().for_each(|it| terminal::note(&format!("{} {it}", it.status)));
-    }
+    note_log(&result.messages, arguments);
     let last_s = recording.times_s.last().copied().unwrap_or(times.start_s);
     let last = terminal::short(last_s);
     if outputs.has_lost_reader() {
@@ -193,10 +219,8 @@ pub fn run(arguments: &Run) -> Outcome {
     };
     let ended = match result.outcome {
         Ok(ended) => ended,
-        Err(error) => {
-            // What was simulated until then is worth keeping.
-            return Err(format!("{error}{}", so_far(outputs.leave(described, recording))).into());
-        }
+        // What was simulated until then is worth keeping.
+        Err(error) => return Err(format!("{error}{}", so_far(outputs.leave(described, recording))).into()),
     };
     // Part of a recording does not replace a complete one.
     let kept = match ended {
@@ -206,40 +230,24 @@ pub fn run(arguments: &Run) -> Outcome {
     if !result.visits.is_empty() {
         let names = carried::timeline::names(&subject.folder()).unwrap_or_default();
         let table = VisitTable { visits: &result.visits, names: &names, zero_epoch_s };
-        if !arguments.quiet {
-            terminal::note(&table.shown());
-        }
-        if let Some(file) = visits {
-            let path = file.path().display().to_string();
-            file.fill(|out| table.write(out))?;
-            if !arguments.quiet {
-                terminal::note(&format!("wrote {path}"));
-            }
-        }
+        write_visits(&table, visits, arguments.quiet)?;
     }
     if !arguments.quiet {
         let steps = ((last_s - times.start_s) / times.step_s).ceil();
         terminal::note(&format!("{steps} steps to {last} s in {:.3} s", elapsed.as_secs_f64()));
     }
     if !arguments.quiet || !checks.is_kept() {
-        let lines = checks.report(described, zero_epoch_s);
-        lines.iter().for_each(|line| terminal::note(line));
+        checks.report(described, zero_epoch_s).iter().for_each(|line| terminal::note(line));
     }
     match ended {
         Ended::AtStop => {}
         Ended::ByItself => terminal::note(&format!("{} ended by itself at {last} s", subject.name())),
         Ended::Cancelled => {
-            let kept = so_far(kept);
-            terminal::note(&format!(
-                "interrupted at {last} s; what was recorded until then is written{kept}"
-            ));
+            let what = "what was recorded until then is written";
+            terminal::note(&format!("interrupted at {last} s; {what}{}", so_far(kept)));
             return Ok(Answer::Interrupted);
         }
     }
-    match result.fault {
-        // The recording is complete, the FMU is not what it should be.
-        Some(fault) => Err(fault.into()),
-        None if !checks.is_kept() => Ok(Answer::No),
-        None => Ok(Answer::Yes),
-    }
+    // The recording is complete; with a fault the FMU is not what it should be.
+    result.fault.map_or_else(|| Ok(checks.is_kept().into()), |fault| Err(fault.into()))
 }

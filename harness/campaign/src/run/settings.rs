@@ -65,7 +65,7 @@ impl Settings {
         let of_mission = |path: &Path, option: &'static str| OutputFile {
             path: path.to_owned(),
             option,
-            home: mission.as_ref().map(|mission| mission.file.parent().unwrap_or(Path::new("")).to_owned()),
+            home: mission.as_ref().map(|mission| mission.path.parent().unwrap_or(Path::new("")).to_owned()),
         };
         let given = by_ending(&arguments.output, FORMATS)?;
         let [table, picture] = given.map(|path| path.map(|path| OutputFile::of_option(path, OPTION)));
@@ -133,6 +133,13 @@ impl Settings {
             return Err(format!("{file}: found a system, allowed: {allowed}").into());
         };
         Ok((fmu, settings, folder))
+    }
+
+    /// Returns the names of the variables that are given a value, once or over time.
+    pub fn given<'a>(&'a self, described: &'a Description) -> impl Iterator<Item = &'a String> {
+        let positions = self.inputs.iter().flat_map(|table| table.positions());
+        let inputs = positions.map(|position| &described.variables[position].name);
+        self.sets.iter().map(|(name, _)| name).chain(inputs)
     }
 
     /// Runs it in this process, telling the time in s after every step, until a word says that it shall end; an FMU is watched.

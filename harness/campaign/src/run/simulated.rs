@@ -1,6 +1,6 @@
 //! Subject of a run: the arguments of `heliotorque run` over those of a mission, and the FMU packed from its files.
 
-use std::{error::Error, ffi::OsString, path::Path};
+use std::{error::Error, path::Path};
 
 use files::{
     Scratch,
@@ -12,7 +12,7 @@ use inputs::{
     mission::{Inputs, Mission},
     values::Instant,
 };
-use isolation::{Bounds, Relayed, SMALL, path_option};
+use isolation::{Bounds, Relayed, Request, SMALL};
 use packing::assembly::{Parts, Source, assemble};
 
 use super::{options::Run, subject::Subject};
@@ -40,7 +40,7 @@ impl Simulated {
             }
             return Ok(Self { run: arguments.clone(), mission: None });
         }
-        let mission = Mission::read(&arguments.fmu)?;
+        let mission = Mission::read_as(&arguments.fmu, arguments.origin.as_ref().unwrap_or(&arguments.fmu))?;
         let mut run = arguments.clone();
         run.start = run.start.or(mission.start_s());
         run.stop = run.stop.or(mission.stop_s().map(Instant::Time));
@@ -84,10 +84,9 @@ impl Simulated {
         }
         let name = template.map_or_else(|| "the library".to_owned(), |path| path.display().to_string());
         let bounds = Bounds::of_calls(self.run.timeout.unwrap_or(PACKING_S));
-        let into = path_option("--into=", folder.path());
-        let arguments = [OsString::from("assemble"), mission.file.clone().into(), into];
-        let arguments = arguments.into_iter().chain(template.map(|path| path_option("--template=", path)));
-        Relayed { name, bounds, limits: SMALL }.run(arguments)?;
+        let [file, mission, into] = [&mission.file, &mission.path, folder.path()].map(Into::into);
+        let request = Request::Assemble { mission, file, template: template.map(Into::into), into };
+        Relayed { name, bounds, limits: SMALL }.run(request)?;
         Ok(folder)
     }
 
@@ -98,17 +97,17 @@ impl Simulated {
     }
 }
 
-/// Puts the FMU of a mission's files together in a folder.
+/// Puts the FMU of a mission's files together in a folder; messages name the mission by `file`.
 ///
 /// # Errors
 /// Whatever the mission or the library refuses.
-pub fn assemble_into(mission: &Path, template: Option<&Path>, into: &Path) -> Outcome {
-    assemble_files(&Mission::read(mission)?, template, into)?;
+pub fn assemble_into([mission, file]: [&Path; 2], template: Option<&Path>, into: &Path) -> Outcome {
+    assemble_files(&Mission::read_as(mission, file)?, template, into)?;
     Ok(Answer::Yes)
 }
 
 fn assemble_files(mission: &Mission, template: Option<&Path>, into: &Path) -> Result<(), Box<dyn Error>> {
-    let name = identifier(&mission.file);
+    let name = identifier(&mission.path);
     let parts = Parts { name: name.as_deref(), ..Parts::default() }.with_files_of(mission)?;
     let assembled = assemble(&Source::open(template, &[])?, &parts)?;
     assembled.entries.write_below(into).map_err(|error| format!("{}: {error}", into.display()))?;

@@ -1,6 +1,7 @@
 //! `heliotorque sweep`: many runs of a mission or an FMU whose values vary, and what is kept of each.
 
 mod histories;
+mod kept;
 pub mod options;
 mod origin;
 mod outputs;
@@ -42,8 +43,9 @@ use repeated::Sample;
 use resolved::Campaign;
 use series::Series;
 use started::{Counts, OPTION, Started};
+use worker::RunStatus;
 use table::RunTable;
-pub use worker::{SweepInChild, run as run_in_child};
+pub use worker::run as run_in_child;
 
 /// A campaign file in a line, after all that the command does before its first run.
 ///
@@ -275,7 +277,7 @@ fn simulate(
         for result in results {
             taken.counts.add(result.status);
             taken.sample.take(&result);
-            taken.killed.extend(result.is_killed().then_some(result.run));
+            taken.killed.extend((result.status == RunStatus::Killed).then_some(result.run));
             written = written.and_then(|()| table.take(&result));
             if written.is_err() || table.file.has_lost_reader() {
                 pool.is_over.store(true, Ordering::Relaxed);

@@ -2,7 +2,6 @@
 
 use std::{
     cell::RefCell,
-    ffi::OsString,
     ops::Range,
     path::Path,
     sync::{
@@ -14,21 +13,13 @@ use std::{
 use files::Destination;
 use fmi::{Collector, Recording, csv};
 use isolation::{
-    Bounds, ChildProcess, EndReason, NOT_REQUESTED, Payload, ResourceLimits, Shown, Supervised, interrupt,
-    path_option,
+    Bounds, ChildProcess, EndReason, Frame, NOT_REQUESTED, Request, ResourceLimits, Runs, Shown, Supervised,
+    interrupt,
 };
 use model_description::Description;
 
-use super::{
-    histories::HistoryPlace,
-    resolved::Campaign,
-    series::Series,
-    worker::{ALL_ENDED, BEGUN, ENDED, POINT, REFUSED, ROW, RunStatus},
-};
+use super::{histories::HistoryPlace, resolved::Campaign, series::Series, worker::RunStatus};
 use crate::run::take_row;
-
-/// Begins the reason of a run whose process was killed from outside, which says nothing of the run.
-pub(super) const KILLED: &str = "killed from outside";
 
 /// Result of a run.
 #[derive(Clone)]
@@ -41,13 +32,6 @@ pub(super) struct RunResult {
     pub numbers: Vec<f64>,
     /// Whether its instance had simulated another run and was reset.
     pub was_reset: bool,
-}
-
-impl RunResult {
-    /// Whether its process was killed from outside, for the first time.
-    pub(super) fn is_killed(&self) -> bool {
-        self.reason.starts_with(KILLED)
-    }
 }
 
 /// Why runs are simulated.
@@ -142,23 +126,16 @@ impl Pool<'_> {
 
     /// Until a process has ended; how it did.
     fn one_process(&self, first: u64, is_fresh: bool, inbox: &mut Inbox<'_>) -> Result<Supervised, String> {
-        let mut arguments = vec![
-            OsString::from("sweep-in-child"),
-            path_option("--campaign=", self.file),
-            path_option("--unpacked-in=", self.folder),
-            format!("--first={first}").into(),
-            format!("--stride={}", self.workers).into(),
-            format!("--end={}", self.runs.end).into(),
-        ];
-        arguments.extend(is_fresh.then(|| "--fresh".into()));
-        let child = ChildProcess::new(arguments, self.limits, None)
-            .map_err(|error| format!("a process of the FMU cannot be started: {error}"))?;
+        let (campaign, folder) = (self.file.into(), self.folder.into());
+        let (stride, end) = (self.workers, self.runs.end);
+        let runs = Runs { campaign, folder, first, stride, end, is_fresh };
+        let child = ChildProcess::new(Request::Sweep(runs), self.limits, None)?;
         let bounds = Bounds { call_s: self.timeout_s, ..Bounds::default() };
         let mut shown = Shown::new(&self.described.model_name);
         let inbox = RefCell::new(inbox);
         let supervised = child.supervise(
             bounds,
-            &mut |kind, payload| inbox.borrow_mut().take(kind, payload),
+            &mut |frame| inbox.borrow_mut().take(frame),
             &mut |line| shown.line(line),
             &mut |_| if self.is_over.load(Ordering::Relaxed) { Err(IS_OVER.to_owned()) } else { Ok(()) },
         );
@@ -189,40 +166,32 @@ struct Inbox<'a> {
 
 impl Inbox<'_> {
     /// Whether it was the last frame.
-    fn take(&mut self, kind: u8, mut payload: Payload<'_>) -> Result<bool, String> {
+    fn take(&mut self, frame: Frame<'_>) -> Result<bool, String> {
         if self.has_ended {
             return Err(NOT_REQUESTED.to_owned());
         }
-        match (kind, self.current) {
-            (BEGUN, None) => {
-                let run = payload.word().filter(|run| *run == self.next).ok_or(NOT_REQUESTED)?;
+        let Campaign { kept, .. } = self.pool.campaign;
+        match (frame, self.current) {
+            (Frame::Begun(run, was_reset), None) if run == self.next => {
                 self.current = Some(run);
-                self.was_reset = payload.word().ok_or(NOT_REQUESTED)? != 0;
+                self.was_reset = was_reset;
                 self.next += self.pool.workers;
                 self.points.clear();
-                let Campaign { kept, .. } = self.pool.campaign;
                 let has_history = kept.histories > 0;
                 self.collector = has_history.then(|| Collector::new(self.pool.described, &kept.positions));
             }
-            (POINT, Some(_)) => {
-                let words = payload.words(self.pool.campaign.kept.percentiles.len()).ok_or(NOT_REQUESTED)?;
-                self.points.extend(words.iter().map(|word| f64::from_bits(*word)));
+            (Frame::Numbers(numbers), Some(_)) if numbers.len() == kept.percentiles.len() => {
+                self.points.extend_from_slice(&numbers);
             }
-            (ROW, Some(_)) => {
-                take_row(&mut payload, self.collector.as_mut().ok_or(NOT_REQUESTED)?)?;
-            }
-            (ENDED, Some(run)) => {
-                let number = payload.word().and_then(|it| usize::try_from(it).ok()).ok_or(NOT_REQUESTED)?;
-                let status = *RunStatus::ALL.get(number).ok_or(NOT_REQUESTED)?;
-                let count = self.pool.campaign.kept.count();
-                let words = payload.words(count).ok_or(NOT_REQUESTED)?;
-                let numbers = words.iter().map(|word| f64::from_bits(*word)).collect();
-                let reason = payload.text().ok_or(NOT_REQUESTED)?;
+            (Frame::Row(row), Some(_)) => take_row(&row, self.collector.as_mut().ok_or(NOT_REQUESTED)?)?,
+            (Frame::Over(status, numbers, reason), Some(run)) if numbers.len() == kept.count() => {
+                let status = *RunStatus::ALL.get(usize::from(status)).ok_or(NOT_REQUESTED)?;
+                let (numbers, reason) = (numbers.into_owned(), reason.into_owned());
                 self.end(RunResult { run, status, reason, numbers, was_reset: self.was_reset })?;
             }
-            (ALL_ENDED, None) => self.has_ended = true,
-            (REFUSED, _) => {
-                self.refused = Some(payload.text().ok_or(NOT_REQUESTED)?);
+            (Frame::Done(_), None) => self.has_ended = true,
+            (Frame::Failed(why), _) => {
+                self.refused = Some(why.into_owned());
                 return Ok(true);
             }
             _ => return Err(NOT_REQUESTED.to_owned()),
@@ -234,12 +203,12 @@ impl Inbox<'_> {
     fn failed(&mut self, run: u64, supervised: &Supervised) -> Result<(), String> {
         let count = self.pool.campaign.kept.count();
         let why = supervised.without_result();
-        let reason = match (supervised.end_reason.is_from_outside(), self.pool.attempt) {
-            (true, Attempt::First) => format!("{KILLED}: {why}"),
-            _ => why,
+        let (status, reason) = match (supervised.end_reason.is_from_outside(), self.pool.attempt) {
+            (true, Attempt::First) => (RunStatus::Killed, format!("killed from outside: {why}")),
+            _ => (RunStatus::Failed, why),
         };
         let numbers = vec![f64::NAN; count];
-        self.end(RunResult { run, status: RunStatus::Failed, reason, numbers, was_reset: self.was_reset })
+        self.end(RunResult { run, status, reason, numbers, was_reset: self.was_reset })
     }
 
     fn end(&mut self, result: RunResult) -> Result<(), String> {

@@ -37,7 +37,7 @@ impl Sample {
 
     /// Takes a run that ended; one whose instance was not reset, or that failed, says nothing.
     pub(super) fn take(&mut self, result: &RunResult) {
-        if result.was_reset && result.status != RunStatus::Failed && self.runs.contains(&result.run) {
+        if result.was_reset && !result.status.has_failed() && self.runs.contains(&result.run) {
             self.results.push(result.clone());
         }
     }

@@ -10,12 +10,12 @@ use inputs::{
         keys::SamplingWord,
     },
     epoch::Dates,
-    mission::{Limit, in_file},
-    reading::At,
+    mission::in_file,
     values::Instant,
 };
 use model_description::{BaseType, Description, ScalarVariable, value};
 
+use super::kept::Kept;
 use crate::{
     Correlation, Design, DesignError, Distribution, Sampling, Varied,
     run::{Run, Settings, Simulated, Subject},
@@ -23,53 +23,6 @@ use crate::{
 
 /// Numbers that percentiles are made of at most.
 const MAX_NUMBERS: u64 = 100_000_000;
-
-/// Recorded variables of a run. Columns are positions in `positions`.
-#[derive(Default)]
-pub(super) struct Kept {
-    /// Recorded variables, those of histories first.
-    pub positions: Vec<usize>,
-    /// How many of them histories have.
-    pub histories: usize,
-    /// Columns of final values.
-    pub finals: Vec<usize>,
-    /// Columns of extremes.
-    pub extremes: Vec<usize>,
-    /// Columns of percentiles.
-    pub percentiles: Vec<usize>,
-    /// Columns and their limits.
-    pub limits: Vec<(usize, Limit)>,
-}
-
-impl Kept {
-    /// Whether every communication point counts.
-    pub(super) fn needs_all_points(&self) -> bool {
-        self.histories > 0
-            || !(self.extremes.is_empty() && self.percentiles.is_empty() && self.limits.is_empty())
-    }
-
-    /// Names of the numbers that are kept of a run.
-    pub(super) fn columns(&self, described: &Description) -> Vec<(String, usize)> {
-        let name = |column: &usize| described.variables[self.positions[*column]].name.as_str();
-        let finals = self.finals.iter().map(|it| (format!("{}.final", name(it)), *it));
-        let extremes = self.extremes.iter().flat_map(|it| {
-            ["min", "max", "largest", "timeOfLargest"].map(|what| (format!("{}.{what}", name(it)), *it))
-        });
-        finals.chain(extremes).collect()
-    }
-
-    /// How many numbers are kept of a run.
-    pub(super) fn count(&self) -> usize {
-        self.finals.len() + 4 * self.extremes.len()
-    }
-
-    fn column(&mut self, position: usize) -> usize {
-        self.positions.iter().position(|it| *it == position).unwrap_or_else(|| {
-            self.positions.push(position);
-            self.positions.len() - 1
-        })
-    }
-}
 
 /// A campaign for the FMU that it simulates.
 pub(super) struct Campaign {
@@ -122,7 +75,7 @@ impl Campaign {
         let names = varied.iter().map(|it| reader.position(&it.name));
         let positions: Vec<usize> = names.collect::<Option<_>>().unwrap_or_default();
         let design = reader.design(varied, sampling)?;
-        let kept = reader.kept(&simulated, &settings)?;
+        let kept = Kept::new(file, described, (&simulated, &settings))?;
         let points = |every_s: Option<f64>| RecordedPoints::new(&settings.times, every_s);
         let percentile_points = points(file.keep.as_ref().and_then(|keep| keep.every_s))?;
         let history_points = points(simulated.run.every)?;
@@ -384,55 +337,6 @@ impl Reader<'_> {
                 _ => format!("{}: {error}", file.file.display()),
             }
         })
-    }
-
-    /// Positions of everything that these names mean, each once.
-    fn positions(&self, names: &[At<String>]) -> Result<Vec<usize>, String> {
-        let mut positions: Vec<usize> = Vec::new();
-        for at in names {
-            let found = fmi::select_outputs(self.described, &at.it)
-                .map_err(|error| self.file.problem(at, &in_file(&at.key, error)))?;
-            for position in found.into_iter().filter(|it| !positions.contains(it)).collect::<Vec<_>>() {
-                let variable = &self.described.variables[position];
-                if variable.kind.base_type() == BaseType::String {
-                    let found =
-                        format!("found the text {:?}, allowed: numbers, options, Booleans", variable.name);
-                    return Err(self.file.problem(at, &found));
-                }
-                positions.push(position);
-            }
-        }
-        Ok(positions)
-    }
-
-    fn kept(&self, simulated: &Simulated, settings: &Settings) -> Result<Kept, Box<dyn Error>> {
-        let histories = match (self.file.histories(), &simulated.mission) {
-            (None, _) => Vec::new(),
-            // What the mission records, its pictures and limits among it.
-            (Some(_), Some(_)) => settings.positions.clone(),
-            (Some(_), None) => fmi::outputs(self.described),
-        };
-        let mut kept = Kept { histories: histories.len(), positions: histories, ..Kept::default() };
-        let is_number =
-            |position: &usize| self.described.variables[*position].kind.base_type() != BaseType::String;
-        let finals = match &self.file.keep {
-            Some(keep) => self.positions(&keep.finals)?,
-            None => fmi::outputs(self.described).into_iter().filter(is_number).collect(),
-        };
-        kept.finals = finals.into_iter().map(|position| kept.column(position)).collect();
-        if let Some(keep) = &self.file.keep {
-            let mut columns = |names| -> Result<Vec<usize>, String> {
-                Ok(self.positions(names)?.into_iter().map(|position| kept.column(position)).collect())
-            };
-            (kept.extremes, kept.percentiles) = (columns(&keep.extremes)?, columns(&keep.percentiles)?);
-        }
-        for limit in &settings.limits {
-            if let Some(position) = self.position(&limit.name) {
-                let column = kept.column(position);
-                kept.limits.push((column, limit.clone()));
-            }
-        }
-        Ok(kept)
     }
 }
 

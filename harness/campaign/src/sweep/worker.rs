@@ -1,46 +1,22 @@
 //! A process that simulates every n-th run of a campaign, with one instance that is reset between runs.
 
 use std::{
-    path::PathBuf,
+    error,
+    path::Path,
     sync::atomic::{AtomicBool, Ordering},
 };
 
 use files::outcome::{Answer, Outcome};
 use fmi::{Ended, Error, Fmu, Instance, InstanceOptions, Options, Row, Rows, Status, Value};
 use inputs::campaign::file::CampaignFile;
-use isolation::{Link, push_text};
+use isolation::{Frame, Link, Runs};
 use model_description::{BaseType, Description};
 
-use super::resolved::{Campaign, Kept, simulated};
-use crate::{
-    Extremes,
-    run::{Subject, push_row},
+use super::{
+    kept::Kept,
+    resolved::{Campaign, simulated},
 };
-
-/// Runs of a campaign for one process.
-#[derive(Clone, Debug)]
-pub struct SweepInChild {
-    /// The campaign
-    pub campaign: PathBuf,
-    /// The folder that the FMU was unpacked into
-    pub unpacked_in: PathBuf,
-    /// The first run
-    pub first: u64,
-    /// Distance of the runs
-    pub stride: u64,
-    /// The first run that is not simulated
-    pub end: u64,
-    /// A new instance a run
-    pub fresh: bool,
-}
-
-/// Kinds of frames: a run begins, a row of its history, a row of its percentiles, its end, the end of all, a failure before any.
-pub(super) const BEGUN: u8 = 1;
-pub(super) const ROW: u8 = 2;
-pub(super) const POINT: u8 = 3;
-pub(super) const ENDED: u8 = 4;
-pub(super) const ALL_ENDED: u8 = 5;
-pub(super) const REFUSED: u8 = 6;
+use crate::{Extremes, run::Subject};
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,56 +29,58 @@ pub(super) enum RunStatus {
     Ended,
     /// A call failed, crashed or hung.
     Failed,
+    /// Its process was killed from outside for the first time, which says nothing of the run.
+    Killed,
 }
 
 impl RunStatus {
-    pub(super) const ALL: [Self; 4] = [Self::Ok, Self::Limit, Self::Ended, Self::Failed];
+    pub(super) const ALL: [Self; 5] = [Self::Ok, Self::Limit, Self::Ended, Self::Failed, Self::Killed];
+
+    /// Whether it has no numbers.
+    pub(super) fn has_failed(self) -> bool {
+        matches!(self, Self::Failed | Self::Killed)
+    }
 
     /// Its word in the table.
     pub(super) fn word(self) -> &'static str {
-        ["ok", "limit", "ended", "failed"][self as usize]
+        ["ok", "limit", "ended", "failed", "killed"][self as usize]
     }
 }
 
 /// Simulates and sends the parent what is kept.
-pub fn run(arguments: &SweepInChild) -> Outcome {
-    let mut link = Link::attach("heliotorque sweep")?;
-    if let Err(error) = simulate_all(arguments, &mut link) {
-        let text = Error::chain(error.as_ref());
-        link.send(REFUSED, |payload| push_text(payload, &text))?;
-    }
-    Ok(Answer::Yes)
+pub fn run(link: Link, runs: &Runs) -> Outcome {
+    link.answer(|link| simulate_all(runs, link))
 }
 
-fn simulate_all(arguments: &SweepInChild, link: &mut Link) -> Result<(), Box<dyn std::error::Error>> {
-    let subject = Subject::open(&arguments.unpacked_in)?;
+/// The last frame once all runs ended; nothing where another process is to go on.
+fn simulate_all(runs: &Runs, link: &mut Link) -> Result<Option<Frame<'static>>, Box<dyn error::Error>> {
+    let subject = Subject::open(Path::new(&runs.folder))?;
     let Subject::Fmu(fmu) = &subject else { return Err("found a system, allowed: an FMU".into()) };
-    let file = CampaignFile::read(&arguments.campaign)?;
+    let file = CampaignFile::read(Path::new(&runs.campaign))?;
     let campaign = Campaign::resolve(&file, simulated(&file, None)?, &subject)?;
-    let is_reset = !arguments.fresh && fmi::conformance::resets(fmu).unwrap_or(false);
+    let is_reset = !runs.is_fresh && fmi::conformance::resets(fmu).unwrap_or(false);
     let mut rows = KeptRows::new(&campaign, fmu.description(), link);
     let mut held: Option<Instance> = None;
-    let runs = (arguments.first..arguments.end).step_by(usize::try_from(arguments.stride)?);
-    for run in runs {
+    for run in (runs.first..runs.end).step_by(usize::try_from(runs.stride)?) {
         if rows.link.cancel_word().load(Ordering::Relaxed) != 0 {
-            return Ok(());
+            return Ok(None);
         }
         // What fails before a run is begun is no fault of that run: another process goes on with it.
         let (mut instance, was_reset) = match held.take() {
             Some(mut instance) if is_reset => match instance.reset() {
                 Ok(()) => (instance, true),
-                Err(_) => return Ok(()),
+                Err(_) => return Ok(None),
             },
             _ => match Instance::new(fmu, "run", &InstanceOptions::default()) {
                 Ok(instance) => (instance, false),
                 // Where nothing else is left to try, no run can be simulated.
-                Err(error) if arguments.fresh && run == arguments.first => return Err(error.into()),
-                Err(_) => return Ok(()),
+                Err(error) if runs.is_fresh && run == runs.first => return Err(error.into()),
+                Err(_) => return Ok(None),
             },
         };
         rows.begin(run, was_reset)?;
         match simulate(&mut instance, &campaign, fmu, run, &mut rows) {
-            Ok(Ended::Cancelled) => return Ok(()),
+            Ok(Ended::Cancelled) => return Ok(None),
             Ok(ended) => {
                 rows.end(ended)?;
                 held = Some(instance);
@@ -111,13 +89,12 @@ fn simulate_all(arguments: &SweepInChild, link: &mut Link) -> Result<(), Box<dyn
                 rows.send(RunStatus::Failed, &Error::chain(&error))?;
                 if error.status() == Some(Status::Fatal) {
                     // No instance of a library may be used after it: the parent starts another process.
-                    return Ok(());
+                    return Ok(None);
                 }
             }
         }
     }
-    link.send(ALL_ENDED, |_| {})?;
-    Ok(())
+    Ok(Some(Frame::Done(Answer::Yes)))
 }
 
 fn simulate(
@@ -199,7 +176,7 @@ impl<'a> KeptRows<'a> {
         self.finals.fill(f64::NAN);
         self.extremes.fill(Extremes::default());
         self.broken = None;
-        self.link.send(BEGUN, |payload| payload.extend([run, u64::from(was_reset)]))
+        self.link.send(&Frame::Begun(run, was_reset))
     }
 
     fn end(&mut self, ended: Ended) -> Result<(), String> {
@@ -214,14 +191,14 @@ impl<'a> KeptRows<'a> {
 
     /// Sends the recorded values; a failed run has none.
     fn send(&mut self, status: RunStatus, reason: &str) -> Result<(), String> {
-        let (finals, extremes) = (&self.finals, &self.extremes);
-        self.link.send(ENDED, |payload| {
-            payload.push(status as u64);
-            let extremes = extremes.iter().flat_map(|it| [it.min, it.max, it.largest, it.time_of_largest_s]);
-            let kept = |number: f64| if status == RunStatus::Failed { f64::NAN } else { number };
-            payload.extend(finals.iter().copied().chain(extremes).map(|number| kept(number).to_bits()));
-            push_text(payload, reason);
-        })
+        let numbers = if status == RunStatus::Failed {
+            vec![f64::NAN; self.kept.count()]
+        } else {
+            let extremes = self.extremes.iter();
+            let extremes = extremes.flat_map(|it| [it.min, it.max, it.largest, it.time_of_largest_s]);
+            self.finals.iter().copied().chain(extremes).collect()
+        };
+        self.link.send(&Frame::Over(status as u8, numbers.into(), reason.into()))
     }
 
     fn check_limits(&mut self, row: &Row<'_>) {
@@ -251,12 +228,12 @@ impl Rows for KeptRows<'_> {
         let point = self.points;
         self.points += 1;
         if !self.kept.percentiles.is_empty() && self.campaign.percentile_points.contain(point) {
-            let values: Vec<u64> =
-                self.kept.percentiles.iter().map(|column| self.value(row, *column).to_bits()).collect();
-            self.link.send(POINT, |payload| payload.extend(values)).map_err(Error::Rows)?;
+            let values: Vec<f64> =
+                self.kept.percentiles.iter().map(|column| self.value(row, *column)).collect();
+            self.link.send(&Frame::Numbers(values.into())).map_err(Error::Rows)?;
         }
         if self.kept.histories > 0 && self.campaign.history_points.contain(point) {
-            self.link.send(ROW, |payload| push_row(payload, row)).map_err(Error::Rows)?;
+            self.link.send(&Frame::Row(row.clone())).map_err(Error::Rows)?;
         }
         Ok(())
     }

@@ -16,7 +16,7 @@ use isolation::probes;
 use packing::{carried, check::Judged, pointing};
 
 use ::files::outcome::{self, Answer, Outcome};
-pub(crate) use options::{Check, Probe};
+pub(crate) use options::Check;
 
 /// Checks an FMU, a system or a spacecraft and prints the report.
 pub(crate) fn run(arguments: &Check) -> Outcome {
@@ -77,11 +77,6 @@ pub(crate) fn run(arguments: &Check) -> Outcome {
         sections.extend(probes::sections(&fmu, |probe| is_selected(arguments, probe), arguments.deadline()));
     }
     report(arguments, &sections)
-}
-
-/// Runs one probe or trial in this process and sends its findings to the parent.
-pub(crate) fn run_probe(arguments: &Probe) -> Outcome {
-    probes::run_in_child(&arguments.fmu, &arguments.name)
 }
 
 /// Refuses a file that is not there.

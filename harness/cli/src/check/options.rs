@@ -35,15 +35,6 @@ pub(crate) struct Check {
     pub verbose: bool,
 }
 
-/// `heliotorque probe-in-child`.
-#[derive(Debug, Args)]
-pub(crate) struct Probe {
-    /// The FMU
-    pub fmu: PathBuf,
-    /// The probe
-    pub name: String,
-}
-
 /// Longest time in s that is counted: beyond it no clock may go.
 const LONGEST_S: f64 = 1e9;
 

@@ -1,6 +1,8 @@
 //! A spacecraft's or a spinner's file as a picture: three views and a perspective.
 
+mod devices;
 mod pane;
+mod parts;
 mod scene;
 mod sheet;
 mod surface;
@@ -12,7 +14,8 @@ use physics::{
 };
 use toml::de::DeTable;
 
-pub use scene::{Scene, dish_of, panel_called};
+pub use parts::{Part, panel_called};
+pub use scene::{Scene, dish_of};
 pub use sheet::{View, svg as sheet_svg};
 
 /// An angle of one panel, or of all.

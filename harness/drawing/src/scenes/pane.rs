@@ -1,7 +1,8 @@
 //! One view of a scene: surfaces, axes, the Sun, centre of mass, rotations, names.
 
 use super::{
-    scene::{Arrow, Axis, Scene},
+    parts::{Arrow, Axis},
+    scene::Scene,
     surface::TO_SUN,
 };
 use crate::{

@@ -1,48 +1,16 @@
 //! Contents of a picture: surfaces, axes of rotation, centre of mass, and a legend; from a spacecraft or a spinner.
 
 use physics::{
-    spacecraft::{AntennaRange, MountedSunSensor, Plate, Spacecraft},
+    spacecraft::{Plate, Spacecraft},
     spin::spinner::Spinner,
 };
 
-use super::surface::{angle_of_file_rad, surfaces};
+use super::{
+    devices::Devices,
+    parts::{Arrow, Axis, BORESIGHT, Part, SUN_SENSOR, area, box_of, nozzle, panel_called},
+    surface::{angle_of_file_rad, surfaces},
+};
 use crate::{Finish, Surface, Vector, unit};
-
-/// A line about which something turns, right-handed.
-pub(crate) struct Axis {
-    pub center_m: Vector,
-    pub direction: Vector,
-    /// How far the line goes to either side.
-    pub half_length_m: f64,
-}
-
-impl Axis {
-    /// The ends of the line.
-    pub(crate) fn ends_m(&self) -> [Vector; 2] {
-        [-1.0, 1.0].map(|end| self.center_m + end * self.half_length_m * self.direction)
-    }
-}
-
-/// A direction that something on the body has: a wheel's axis, a boresight.
-pub(crate) struct Arrow {
-    pub from_m: Vector,
-    pub to_m: Vector,
-    pub colour: &'static str,
-}
-
-/// An entry of the legend.
-pub struct Part {
-    /// The short sign in the picture: `3`, `P1`, `T10`.
-    pub sign: String,
-    /// Name of the part.
-    pub name: String,
-    /// Area or force, and how it stands.
-    pub what: String,
-    /// Position of its sign if not on its surface.
-    pub beside_m: Option<Vector>,
-    /// Whether it is shown through the surfaces in front of it, by its sign.
-    pub is_inside: bool,
-}
 
 /// Everything that is drawn.
 pub struct Scene {
@@ -64,17 +32,6 @@ pub struct Scene {
     pub parts: Vec<Part>,
     /// Limits of the picture, in whole sentences.
     pub remarks: Vec<&'static str>,
-}
-
-/// A panel as texts name it: `panel +X`, whether or not its own name says that it is one.
-pub fn panel_called(name: &str) -> String {
-    called("panel", name)
-}
-
-/// A part as texts name it, whether or not its own name says what it is.
-fn called(kind: &str, name: &str) -> String {
-    let says_so = name.get(..kind.len()).is_some_and(|start| start.eq_ignore_ascii_case(kind));
-    if says_so { name.to_owned() } else { format!("{kind} {name}") }
 }
 
 impl Scene {
@@ -222,18 +179,6 @@ impl Scene {
     }
 }
 
-impl Part {
-    fn new(sign: String, name: &str, what: String) -> Self {
-        Self { sign, name: name.to_owned(), what, beside_m: None, is_inside: false }
-    }
-}
-
-/// Colours of antennas, boresights, Sun sensors and wheels.
-const ANTENNA: &str = "#b5179e";
-const BORESIGHT: &str = "#0072b2";
-const SUN_SENSOR: &str = "#b35900";
-const WHEEL: &str = "#00795a";
-
 /// The dish that a plate is a facet of, by the names that the file's reader gives facets.
 pub fn dish_of(plate: &str) -> Option<&str> {
     let (dish, facet) = plate.rsplit_once(".ring[")?;
@@ -255,134 +200,6 @@ fn plate_rows(plates: &[Plate]) -> Vec<(String, Vec<usize>)> {
     rows
 }
 
-/// Thrusters, wheels, tanks, instruments, antennas and Sun sensors.
-#[derive(Default)]
-struct Devices {
-    parts: Vec<Part>,
-    nozzles: Vec<Surface>,
-    arrows: Vec<Arrow>,
-    remarks: Vec<&'static str>,
-}
-
-impl Devices {
-    /// Devices of a spacecraft with these surfaces; the first is part `first`.
-    fn from_spacecraft(spacecraft: &Spacecraft, surfaces: &[Surface], first: usize) -> Self {
-        let mut devices = Self::default();
-        let Some([low_m, high_m]) = box_of(surfaces.iter()) else { return devices };
-        let size_m = (high_m - low_m).max();
-        let greatest_n = spacecraft.thrusters.iter().map(|it| it.force_body_n.norm()).fold(0.0, f64::max);
-        for (index, thruster) in spacecraft.thrusters.iter().enumerate() {
-            let force_n = thruster.force_body_n.norm();
-            let Some(jet) = unit(-thruster.force_body_n) else { continue };
-            // A weak one is smaller, and still to be seen.
-            let length_m = 0.05 * size_m * (force_n / greatest_n).powf(0.2);
-            let part = first + devices.parts.len();
-            devices.nozzles.extend(nozzle(thruster.position_body_m, jet, length_m, part));
-            let what = format!("{} N", terminal::short(force_n));
-            let mut part = Part::new(format!("T{}", index + 1), &thruster.name, what);
-            part.beside_m = Some(thruster.position_body_m + 1.5 * length_m * jet);
-            devices.parts.push(part);
-        }
-        for (index, wheel) in spacecraft.wheels.iter().enumerate() {
-            let what = format!("{} N m s", terminal::short(wheel.capacity_n_m_s));
-            let part = Part::new(format!("W{}", index + 1), &called("wheel", &wheel.name), what);
-            devices.arrow(part, wheel.position_body_m, wheel.axis_body, 0.1 * size_m, WHEEL);
-        }
-        for (index, tank) in spacecraft.tanks.iter().enumerate() {
-            let what = format!("{} kg", terminal::short(tank.propellant_kg));
-            let mut part = Part::new(format!("K{}", index + 1), &called("tank", &tank.name), what);
-            (part.beside_m, part.is_inside) = (Some(tank.position_body_m), true);
-            devices.parts.push(part);
-        }
-        let center_m = spacecraft.mass_properties.center_of_mass_body_m;
-        // The file gives no place: out of the body, seen from the centre of mass, panels left out where there is something else.
-        let body = surfaces.iter().filter(|surface| surface.finish != Finish::Cells);
-        let [low_m, high_m] = box_of(body).unwrap_or([low_m, high_m]);
-        let leaves = |direction: &Vector| {
-            let side_m = |i: usize| if direction[i] < 0.0 { low_m[i] } else { high_m[i] };
-            let along = (0..3).filter(|i| direction[*i] != 0.0);
-            let along = along.map(|i| (side_m(i) - center_m[i]).abs() / direction[i].abs());
-            center_m + along.fold(f64::INFINITY, f64::min) * direction
-        };
-        for (index, instrument) in spacecraft.instruments.iter().enumerate() {
-            let part = Part::new(format!("I{}", index + 1), &instrument.name, "instrument".to_owned());
-            let boresight = instrument.boresight_body;
-            devices.arrow(part, leaves(&boresight), boresight, 0.12 * size_m, BORESIGHT);
-        }
-        for (index, named) in spacecraft.antennas.iter().enumerate() {
-            let sign = format!("A{}", index + 1);
-            let length_m = 0.12 * size_m;
-            let (middle, ends, what) = match &named.antenna.range {
-                AntennaRange::Axis(axis_body) => (*axis_body, vec![*axis_body], "antenna".to_owned()),
-                AntennaRange::Fan(fan) => {
-                    let ends_rad = fan.bounds_rad();
-                    let [from_deg, to_deg] =
-                        ends_rad.map(|end_rad| terminal::short(end_rad.to_degrees().round()));
-                    let toward = |azimuth_rad: f64| Vector::new(azimuth_rad.sin(), -azimuth_rad.cos(), 0.0);
-                    let what = format!("antenna, azimuth {from_deg} to {to_deg} deg");
-                    (toward(fan.middle_rad), ends_rad.map(toward).to_vec(), what)
-                }
-            };
-            let from_m = leaves(&middle);
-            let arrow = |end: &Vector| Arrow { from_m, to_m: from_m + length_m * end, colour: ANTENNA };
-            devices.arrows.extend(ends.iter().map(arrow));
-            let mut part = Part::new(sign, &called("antenna", &named.name), what);
-            part.beside_m = Some(from_m + 1.25 * length_m * middle);
-            devices.parts.push(part);
-        }
-        // Six along the body axes are assumed where the file says nothing.
-        let is_given = spacecraft.sun_sensors != MountedSunSensor::six();
-        for (index, sensor) in spacecraft.sun_sensors.iter().enumerate().filter(|_| is_given) {
-            let half_deg = terminal::short(sensor.half_field_of_view_rad.to_degrees());
-            let what = format!("Sun sensor, {half_deg} deg to each side");
-            let part = Part::new(format!("S{}", index + 1), &sensor.name, what);
-            devices.arrow(part, leaves(&sensor.axis_body), sensor.axis_body, 0.08 * size_m, SUN_SENSOR);
-        }
-        let remarks = [
-            (spacecraft.wheels.is_empty(), "Green arrows are axes of wheels, as they turn right-handed."),
-            (spacecraft.tanks.is_empty(), "Circles are tanks."),
-            (spacecraft.instruments.is_empty(), "Blue arrows are boresights of instruments."),
-            (
-                spacecraft.antennas.is_empty(),
-                "Magenta arrows are where antennas look: fans from the one to the other.",
-            ),
-            (!is_given, "Brown arrows are axes of Sun sensors."),
-            (spacecraft.thrusters.is_empty(), "Nozzles point where the jet goes."),
-        ];
-        devices.remarks.extend(remarks.into_iter().filter(|(is_absent, _)| !is_absent).map(|(_, it)| it));
-        devices
-    }
-
-    fn arrow(
-        &mut self,
-        mut part: Part,
-        from_m: Vector,
-        direction: Vector,
-        length_m: f64,
-        colour: &'static str,
-    ) {
-        let to_m = from_m + length_m * direction;
-        self.arrows.push(Arrow { from_m, to_m, colour });
-        part.beside_m = Some(to_m + 0.25 * length_m * direction);
-        part.is_inside = colour == WHEEL;
-        self.parts.push(part);
-    }
-}
-
-/// Corners of the box around some surfaces.
-fn box_of<'s>(surfaces: impl Iterator<Item = &'s Surface>) -> Option<[Vector; 2]> {
-    let mut corners = surfaces.flat_map(|surface| &surface.corners);
-    let first = *corners.next()?;
-    Some(corners.fold([first; 2], |[low, high], corner| [low.inf(corner), high.sup(corner)]))
-}
-
-/// To four digits.
-fn area(area_m2: f64) -> String {
-    let decimals = (3.0 - area_m2.log10().floor()).clamp(0.0, 12.0) as usize;
-    let rounded_m2 = format!("{area_m2:.decimals$}").parse().unwrap_or(area_m2);
-    format!("{} m²", terminal::short(rounded_m2))
-}
-
 /// Facets of a spinner's assumed body.
 fn body(radius_m: f64, low_m: f64, high_m: f64) -> Vec<Surface> {
     const SIDES: u32 = 40;
@@ -397,22 +214,6 @@ fn body(radius_m: f64, low_m: f64, high_m: f64) -> Vec<Surface> {
     let all =
         sides.map(|corners| (corners, Finish::Facet)).chain([(upper, Finish::Plate), (lower, Finish::Plate)]);
     all.filter_map(|(corners, finish)| Surface::facet(corners, finish, usize::MAX)).collect()
-}
-
-/// A cone from the throat to the exit.
-fn nozzle(throat_m: Vector, jet: Vector, length_m: f64, part: usize) -> Vec<Surface> {
-    const SIDES: u32 = 10;
-    let across = unit(jet.cross(&Vector::z())).or_else(|| unit(jet.cross(&Vector::x())));
-    let Some(first) = across else { return Vec::new() };
-    let second = jet.cross(&first);
-    let exit_m = throat_m + length_m * jet;
-    let rim = |k: u32| {
-        let (sine, cosine) = (f64::from(k) * std::f64::consts::TAU / f64::from(SIDES)).sin_cos();
-        exit_m + 0.32 * length_m * (cosine * first + sine * second)
-    };
-    let sides = (0..SIDES).map(|k| vec![throat_m, rim(k + 1), rim(k)]);
-    let all = sides.chain([(0..SIDES).map(rim).collect()]);
-    all.filter_map(|corners| Surface::facet(corners, Finish::Nozzle, part)).collect()
 }
 
 #[cfg(test)]
@@ -465,18 +266,5 @@ mod tests {
         let row = scene.parts.iter().position(|part| part.name == "LVA").unwrap();
         let deepest = scene.surfaces.iter().filter(|it| it.part == row).flat_map(|it| &it.corners);
         assert!(deepest.map(|corner| corner.z).fold(f64::MAX, f64::min) < -1.0);
-    }
-
-    #[test]
-    fn a_panel_is_called_one_once() {
-        for (name, called) in [
-            ("+X", "panel +X"),
-            ("panel +X", "panel +X"),
-            ("Panel", "Panel"),
-            ("pan", "panel pan"),
-            ("wing \u{e4}", "panel wing \u{e4}"),
-        ] {
-            assert_eq!(panel_called(name), called);
-        }
     }
 }

@@ -2,7 +2,8 @@
 
 use super::{
     pane::{Extent, Pane, scale_bar},
-    scene::{Axis, Scene},
+    parts::{Axis, Part},
+    scene::Scene,
 };
 use crate::{BESIDE, Camera, Finish, HEADING, Pen, TEXT, Vector, width_px};
 
@@ -190,7 +191,7 @@ struct Legend {
 impl Legend {
     fn new(scene: &Scene, width: f64) -> Self {
         let entries = scene.parts.len().min(MAX_ENTRIES);
-        let widest = |get: fn(&super::scene::Part) -> &str| {
+        let widest = |get: fn(&Part) -> &str| {
             let shown = scene.parts.iter().take(entries);
             shown.map(|part| width_px(get(part), LEGEND_SIZE)).fold(0.0, f64::max)
         };

@@ -3,21 +3,19 @@
 use std::{
     ffi::{CString, c_int, c_void},
     ptr,
-    sync::{
-        Arc,
-        atomic::{AtomicU64, Ordering},
-    },
+    sync::Arc,
 };
 
 use model_description::call_table::Function;
 use model_description::functions::{
     CO_SIMULATION, LAST_SUCCESSFUL_TIME, TERMINATED,
-    types::{self, CallbackFunctions, CallbackLogger, FmuState},
+    types::{self, CallbackFunctions, CallbackLogger},
 };
 
 use super::{
     binary::Binary,
     logger::{FixedLogger, MessageBuffer, log_message},
+    states::{StateKey, States},
     text::text,
 };
 use crate::{LogMessage, Status, call_record, error::Outcome};
@@ -55,22 +53,7 @@ pub(crate) struct Component {
     buffer: Arc<MessageBuffer>,
     // Old FMUs read the callbacks from the caller's struct for the whole of their life.
     callbacks: *mut CallbackFunctions,
-    states: Vec<Slot>,
-    number: u64,
-}
-
-/// A place for one FMU state; `generation` distinguishes a freed one from its successor.
-struct Slot {
-    state: FmuState,
-    generation: u64,
-}
-
-/// Names a state held by a [`Component`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct StateKey {
-    component: u64,
-    slot: usize,
-    generation: u64,
+    states: States,
 }
 
 // SAFETY: an FMI instance may be used from any thread as long as it is from one at a time (2.1.3), which
@@ -131,11 +114,7 @@ impl Component {
         binary: Arc<Binary>,
         start: &Start<'_>,
     ) -> Result<Self, (Outcome, Vec<LogMessage>)> {
-        static NUMBER: AtomicU64 = AtomicU64::new(0);
-        let c_text = |what: &str, value: &str| {
-            CString::new(value)
-                .map_err(|_| (Outcome::BadArguments(format!("{what} contains a zero byte")), Vec::new()))
-        };
+        let c_text = |what, value| c_text(what, value).map_err(|outcome| (outcome, Vec::new()));
         let name = c_text("the instance name", start.name)?;
         let guid = c_text("the GUID", start.guid)?;
         let resources = start.resources.map(|uri| c_text("the resource location", uri)).transpose()?;
@@ -171,14 +150,7 @@ impl Component {
             // SAFETY: the struct is ours; from here on nobody may read it as a struct, and we never do.
             unsafe { ptr::write_bytes(callbacks.cast::<u8>(), 0xA5, size_of::<CallbackFunctions>()) };
         }
-        let component = Self {
-            binary,
-            handle,
-            buffer,
-            callbacks,
-            states: Vec::new(),
-            number: NUMBER.fetch_add(1, Ordering::Relaxed),
-        };
+        let component = Self { binary, handle, buffer, callbacks, states: States::new() };
         if handle.is_null() {
             let messages = component.messages();
             return Err((Outcome::NoInstance, messages));
@@ -319,23 +291,21 @@ impl Component {
     pub(crate) fn get_state(&mut self) -> Result<(Status, Option<StateKey>), Outcome> {
         let mut state = ptr::null_mut();
         let status = call!(self.fmi2GetFMUstate(&raw mut state))?;
-        Ok((status, self.keep(state)))
+        Ok((status, self.states.keep(state)))
     }
 
     pub(crate) fn set_state(&mut self, key: StateKey) -> Answer {
-        let state = self.state(key)?;
+        let state = self.states.get(key)?;
         call!(self.fmi2SetFMUstate(state))
     }
 
     pub(crate) fn free_state(&mut self, key: StateKey) -> Answer {
-        let mut state = self.state(key)?;
-        self.states[key.slot].state = ptr::null_mut();
-        self.states[key.slot].generation += 1;
+        let mut state = self.states.take(key)?;
         call!(self.fmi2FreeFMUstate(&raw mut state))
     }
 
     pub(crate) fn serialize_state(&mut self, key: StateKey, bytes: &mut Vec<u8>) -> Answer {
-        let state = self.state(key)?;
+        let state = self.states.get(key)?;
         let mut size = 0;
         let status = call!(self.fmi2SerializedFMUstateSize(state, &raw mut size))?;
         if !matches!(status, Status::Ok | Status::Warning) {
@@ -349,7 +319,7 @@ impl Component {
     pub(crate) fn deserialize_state(&mut self, bytes: &[u8]) -> Result<(Status, Option<StateKey>), Outcome> {
         let mut state = ptr::null_mut();
         let status = call!(self.fmi2DeSerializeFMUstate(bytes.as_ptr().cast(), bytes.len(), &raw mut state))?;
-        Ok((status, self.keep(state)))
+        Ok((status, self.states.keep(state)))
     }
 
     /// Zero-length vectors as NULL, NULL states to free, a NULL list of categories: all legal, all tempting to
@@ -384,46 +354,13 @@ impl Component {
             unsafe { function(ptr::null_mut()) };
         }
     }
-
-    fn state(&self, key: StateKey) -> Result<*mut c_void, Outcome> {
-        let known = key.component == self.number
-            && self.states.get(key.slot).is_some_and(|slot| slot.generation == key.generation);
-        if known {
-            Ok(self.states[key.slot].state)
-        } else {
-            Err(Outcome::BadArguments("the state belongs to another instance or was freed".to_owned()))
-        }
-    }
-
-    fn keep(&mut self, state: *mut c_void) -> Option<StateKey> {
-        if state.is_null() {
-            return None;
-        }
-        let slot = match self.states.iter().position(|slot| slot.state.is_null()) {
-            Some(free) => {
-                self.states[free].state = state;
-                free
-            }
-            None => {
-                self.states.push(Slot { state, generation: 0 });
-                self.states.len() - 1
-            }
-        };
-        Some(StateKey { component: self.number, slot, generation: self.states[slot].generation })
-    }
 }
 
 impl Drop for Component {
     fn drop(&mut self) {
         if !self.handle.is_null() {
-            for slot in &mut self.states {
-                if let (false, Some(function)) =
-                    (slot.state.is_null(), self.binary.functions.fmi2FreeFMUstate)
-                {
-                    let _under_way = call_record::enter(const { call_record::number("fmi2FreeFMUstate") });
-                    // SAFETY: the state is this instance's and not yet freed.
-                    unsafe { function(self.handle, &raw mut slot.state) };
-                }
+            for mut state in self.states.held() {
+                let _ = call!(self.fmi2FreeFMUstate(&raw mut state));
             }
             if let Some(function) = self.binary.functions.fmi2FreeInstance {
                 let _under_way = call_record::enter(const { call_record::number("fmi2FreeInstance") });
@@ -449,11 +386,10 @@ fn same_length(references: usize, values: usize) -> Result<(), Outcome> {
     Err(Outcome::BadArguments(format!("{references} value references but {values} values")))
 }
 
+fn c_text(what: &str, value: &str) -> Result<CString, Outcome> {
+    CString::new(value).map_err(|_| Outcome::BadArguments(format!("{what} contains a zero byte")))
+}
+
 fn c_texts<'a>(texts: impl Iterator<Item = &'a str>) -> Result<Vec<CString>, Outcome> {
-    texts
-        .map(|text| {
-            CString::new(text)
-                .map_err(|_| Outcome::BadArguments(format!("the text {text:?} contains a zero byte")))
-        })
-        .collect()
+    texts.map(|text| c_text(&format!("the text {text:?}"), text)).collect()
 }

@@ -11,11 +11,13 @@ mod describe;
 mod locale;
 mod logger;
 mod shared;
+mod states;
 mod text;
 
 pub use binary::Binary;
 pub use component::Callbacks;
-pub(crate) use component::{Answer, Component, Start, StateKey};
+pub(crate) use component::{Answer, Component, Start};
 pub use describe::Described;
 pub use locale::set_locale;
 pub use shared::SharedWords;
+pub(crate) use states::StateKey;

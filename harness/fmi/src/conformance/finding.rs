@@ -1,7 +1,9 @@
 //! Findings of a check.
 
+use serde::{Deserialize, Serialize};
+
 /// Verdict of a check.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Verdict {
     /// As it should be.
     Good,
@@ -29,7 +31,7 @@ impl Verdict {
 }
 
 /// One line of the report.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Finding {
     /// Good or bad.
     pub verdict: Verdict,

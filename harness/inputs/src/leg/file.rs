@@ -26,12 +26,6 @@ impl LegFile {
         reading::read(FileKind::Leg, file, judge)
     }
 
-    /// An error of its mission, which stands in a file of its own with the start of the leg.
-    pub fn in_mission(&self, error: &str, begun: &Path) -> String {
-        let [begun, own] = [begun, &self.mission.it].map(|path| path.display().to_string());
-        self.problem(&self.mission, &error.replace(&begun, &own))
-    }
-
     /// Aimpoint of the encounter.
     pub fn aimpoint(&self) -> At<FlybyAimpoint> {
         // Without one no file is read.

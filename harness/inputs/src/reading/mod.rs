@@ -24,8 +24,10 @@ pub use written::Written;
 /// Values of a file with its path and its text.
 #[derive(Clone, Debug)]
 pub struct InFile<T> {
-    /// The file as the caller named it.
+    /// The file as messages name it.
     pub file: PathBuf,
+    /// The file that was read.
+    pub path: PathBuf,
     /// Its text.
     pub text: String,
     values: T,
@@ -61,12 +63,12 @@ pub(crate) fn read<D: DeserializeOwned + Checked + physics::toml::Written>(
     file: &Path,
     judge: impl FnOnce(&D, &D::Value, &Place<'_>),
 ) -> Result<InFile<D::Value>, Refusal> {
-    parse(file, kind.read(file)?, judge)
+    parse([file; 2], kind.read(file)?, judge)
 }
 
-/// The same of its text.
+/// The same of its text; messages name the file by its first path, its own paths are relative to the second.
 pub(crate) fn parse<D: DeserializeOwned + Checked + physics::toml::Written>(
-    file: &Path,
+    [file, path]: [&Path; 2],
     text: String,
     judge: impl FnOnce(&D, &D::Value, &Place<'_>),
 ) -> Result<InFile<D::Value>, Refusal> {
@@ -74,11 +76,11 @@ pub(crate) fn parse<D: DeserializeOwned + Checked + physics::toml::Written>(
     let document = Document::parse(&shown, &text).map_err(refusal)?;
     let (mut description, checker) = Checker::read::<D>(&document).map_err(refusal)?;
     let root = Place::root(&checker);
-    description.check(&root, file.parent().unwrap_or(Path::new("")));
+    description.check(&root, path.parent().unwrap_or(Path::new("")));
     let values = description.value();
     judge(&description, &values, &root);
     let values = checker.finish(values).map_err(refusal)?;
-    Ok(InFile { file: file.to_owned(), text, values })
+    Ok(InFile { file: file.to_owned(), path: path.to_owned(), text, values })
 }
 
 /// Problems of a file that a reader of the physics crate found.

@@ -1,7 +1,7 @@
-//! The memory that parent and child share: a header, the record of calls, and a ring of words with frames.
+//! The memory that parent and child share: a header, the record of calls, and a ring of words: first with the request, then with frames.
 //!
-//! A frame is its kind and length, the token that the parent gave, and the payload. The parent checks all three, for
-//! the FMU runs in the child's memory and may write anywhere.
+//! A frame is its length in bytes, the token that the parent gave, and what postcard makes of it, padded to whole words. The parent
+//! checks all three, for the FMU runs in the child's memory and may write anywhere.
 
 use std::{
     hash::{BuildHasher, Hasher, RandomState},
@@ -11,14 +11,18 @@ use std::{
 };
 
 use fmi::{CALL_RECORD_WORDS, CallRecord, SharedWords};
+use serde::{Deserialize, Serialize};
+use terminal::Screen;
 
-use super::system;
+use super::{
+    frame::{Frame, NOT_REQUESTED, Request},
+    limits::ResourceLimits,
+    system,
+};
 
-/// The parent's token, its process, the child's limits (0: none), whether it shall end.
+/// The parent's token, length of the request in bytes, whether the child shall end.
 const TOKEN: usize = 0;
-const PARENT: usize = 1;
-const MEMORY: usize = 2;
-const FILES: usize = 3;
+const REQUEST: usize = 1;
 const CANCEL: usize = 8;
 /// The record of calls.
 const CALLS: usize = 16;
@@ -29,48 +33,67 @@ const TAIL: usize = 48;
 const RING: usize = 64;
 /// 4 MiB: the rows of some milliseconds.
 pub(super) const RING_WORDS: usize = 1 << 19;
-/// Fault of a frame that was not requested.
-pub const NOT_REQUESTED: &str = "it sent what was not requested";
-/// Longest payload; a row of a million Reals fits.
-const MAX_WORDS: usize = 1 << 21;
+const WORD: usize = size_of::<u64>();
+/// Words of a frame before its content.
+const FRAME_HEAD: usize = 2;
+/// Longest content in bytes; a row of a million Reals fits.
+const MAX_BYTES: usize = 1 << 24;
 /// How often a child checks whether a full ring has space again, and how much has to be free before it continues.
 const PAUSE: Duration = Duration::from_millis(1);
 const FREE_WORDS: u64 = RING_WORDS as u64 / 4;
+
+/// Start of a child: its parent's process, its limits, the parent's screen, its task.
+#[derive(Serialize, Deserialize)]
+struct Start {
+    parent: u32,
+    limits: ResourceLimits,
+    columns: [Option<u16>; 2],
+    request: Request,
+}
 
 /// The child's end.
 pub struct Link {
     words: &'static SharedWords,
     token: u64,
     head: u64,
-    frame: Vec<u64>,
+    bytes: Vec<u8>,
+    pub(super) screen: Screen,
+}
+
+/// Takes the memory that the parent gave as standard input, keeps the parent's limits and ends with the parent.
+///
+/// # Errors
+/// A standard input of something else: such a process is started by another one of the program.
+pub fn attach() -> Result<(Link, Request), String> {
+    attached().map_err(|error| format!("a parent process starts this: {error}"))
+}
+
+fn attached() -> io::Result<(Link, Request)> {
+    let file = system::take_stdin()?;
+    // For the life of the process: the record of calls is read from anywhere.
+    let words: &'static SharedWords = Box::leak(Box::new(SharedWords::map(&file)?));
+    drop(file);
+    if words.len() != RING + RING_WORDS {
+        return Err(io::Error::other("the standard input is not that of a parent"));
+    }
+    let bytes: Vec<u8> =
+        words[RING..].iter().flat_map(|word| word.load(Ordering::Relaxed).to_le_bytes()).collect();
+    let length = words[REQUEST].load(Ordering::Relaxed) as usize;
+    let start = bytes.get(..length).and_then(|bytes| postcard::from_bytes(bytes).ok());
+    let Start { parent, limits, columns: [output_columns, note_columns], request } =
+        start.ok_or_else(|| io::Error::other("the standard input holds no request"))?;
+    system::end_with_parent(parent)?;
+    system::restrict(limits)?;
+    if let Ok(calls) = <&CallRecord>::try_from(&words[CALLS..CALLS + CALL_RECORD_WORDS]) {
+        fmi::record_calls(calls);
+    }
+    // Where no instruction of the FMU runs yet, nobody else reads the token.
+    let token = words[TOKEN].swap(0, Ordering::Relaxed);
+    let screen = Screen { output_columns, note_columns };
+    Ok((Link { words, token, head: 0, bytes: Vec::new(), screen }, request))
 }
 
 impl Link {
-    /// Takes the memory that the parent gave as standard input, keeps the parent's limits and ends with the parent.
-    /// `command` is what starts such a child.
-    pub fn attach(command: &str) -> Result<Self, String> {
-        Self::attached().map_err(|error| format!("`{command}` starts this: {error}"))
-    }
-
-    fn attached() -> io::Result<Self> {
-        let file = system::take_stdin()?;
-        // For the life of the process: the record of calls is read from anywhere.
-        let words: &'static SharedWords = Box::leak(Box::new(SharedWords::map(&file)?));
-        drop(file);
-        if words.len() != RING + RING_WORDS {
-            return Err(io::Error::other("the standard input is not that of a parent"));
-        }
-        let value = |index: usize| words[index].load(Ordering::Relaxed);
-        system::end_with_parent(value(PARENT))?;
-        system::restrict(value(MEMORY), value(FILES))?;
-        if let Ok(calls) = <&CallRecord>::try_from(&words[CALLS..CALLS + CALL_RECORD_WORDS]) {
-            fmi::record_calls(calls);
-        }
-        // Where no instruction of the FMU runs yet, nobody else reads the token.
-        let token = words[TOKEN].swap(0, Ordering::Relaxed);
-        Ok(Self { words, token, head: 0, frame: Vec::new() })
-    }
-
     /// The word by which the parent requests the child's end: other than 0.
     pub fn cancel_word(&self) -> &'static AtomicU64 {
         &self.words[CANCEL]
@@ -82,18 +105,22 @@ impl Link {
     }
 
     /// Sends a frame; waits while the ring is full.
-    pub fn send(&mut self, kind: u8, payload: impl FnOnce(&mut Vec<u64>)) -> Result<(), String> {
-        let mut frame = std::mem::take(&mut self.frame);
-        frame.clear();
-        frame.extend([0, self.token]);
-        payload(&mut frame);
-        let length = frame.len() - 2;
-        if length > MAX_WORDS {
-            return Err(format!("a row or text of {length} words, allowed are {MAX_WORDS}"));
+    ///
+    /// # Errors
+    /// A frame that is too long.
+    pub fn send(&mut self, frame: &Frame<'_>) -> Result<(), String> {
+        let mut bytes = std::mem::take(&mut self.bytes);
+        bytes.clear();
+        bytes.extend([[0; WORD], self.token.to_le_bytes()].as_flattened());
+        let mut bytes = postcard::to_extend(frame, bytes).map_err(|error| error.to_string())?;
+        let length = bytes.len() - FRAME_HEAD * WORD;
+        if length > MAX_BYTES {
+            return Err(format!("a row or text of {length} bytes, allowed are {MAX_BYTES}"));
         }
-        frame[0] = u64::from(kind) | (length as u64) << 8;
+        bytes[..WORD].copy_from_slice(&(length as u64).to_le_bytes());
+        bytes.resize(bytes.len().next_multiple_of(WORD), 0);
         let ring = &self.words[RING..];
-        let mut rest = frame.as_slice();
+        let (mut rest, _) = bytes.as_chunks::<WORD>();
         while !rest.is_empty() {
             let at = (self.head % RING_WORDS as u64) as usize;
             let count = (self.free() as usize).min(rest.len()).min(RING_WORDS - at);
@@ -104,65 +131,14 @@ impl Link {
                 continue;
             }
             for (word, value) in ring[at..at + count].iter().zip(rest) {
-                word.store(*value, Ordering::Relaxed);
+                word.store(u64::from_le_bytes(*value), Ordering::Relaxed);
             }
             rest = &rest[count..];
             self.head = self.head.wrapping_add(count as u64);
             self.words[HEAD].store(self.head, Ordering::Release);
         }
-        self.frame = frame;
+        self.bytes = bytes;
         Ok(())
-    }
-}
-
-/// Appends a text to a payload.
-pub fn push_text(payload: &mut Vec<u64>, text: &str) {
-    push_bytes(payload, text.as_bytes());
-}
-
-/// Appends bytes to a payload.
-pub(super) fn push_bytes(payload: &mut Vec<u64>, bytes: &[u8]) {
-    payload.push(bytes.len() as u64);
-    payload.extend(bytes.chunks(8).map(|chunk| {
-        let mut bytes = [0; 8];
-        bytes[..chunk.len()].copy_from_slice(chunk);
-        u64::from_le_bytes(bytes)
-    }));
-}
-
-/// A payload, read from its beginning on.
-pub struct Payload<'a>(&'a [u64]);
-
-impl<'a> Payload<'a> {
-    /// The next word.
-    pub fn word(&mut self) -> Option<u64> {
-        let (first, rest) = self.0.split_first()?;
-        self.0 = rest;
-        Some(*first)
-    }
-
-    /// The next words.
-    pub fn words(&mut self, count: usize) -> Option<&'a [u64]> {
-        let (words, rest) = self.0.split_at_checked(count)?;
-        self.0 = rest;
-        Some(words)
-    }
-
-    /// The next text.
-    pub fn text(&mut self) -> Option<String> {
-        Some(String::from_utf8_lossy(&self.bytes()?).into_owned())
-    }
-
-    /// The next bytes.
-    pub fn bytes(&mut self) -> Option<Vec<u8>> {
-        let length = usize::try_from(self.word()?).ok()?;
-        let words = self.words(length.div_ceil(8))?;
-        Some(words.iter().flat_map(|word| word.to_le_bytes()).take(length).collect())
-    }
-
-    /// Whether everything was read.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
     }
 }
 
@@ -171,23 +147,31 @@ pub(super) struct Inbox {
     words: SharedWords,
     token: u64,
     tail: u64,
-    // The frame that comes in: its head, then its payload.
-    frame: Vec<u64>,
+    // The frame that comes in: its head, then its content.
+    frame: Vec<u8>,
 }
 
 impl Inbox {
-    /// The memory, and the file to hand to the child; limits in bytes and files.
-    pub(super) fn create(memory: Option<u64>, files: Option<u64>) -> io::Result<(std::fs::File, Self)> {
+    /// The memory with the child's request and limits, and the file to hand to the child.
+    ///
+    /// # Errors
+    /// No such memory; a request longer than it.
+    pub(super) fn create(request: Request, limits: ResourceLimits) -> io::Result<(std::fs::File, Self)> {
         let (file, words) = SharedWords::create(RING + RING_WORDS)?;
         let token = RandomState::new().build_hasher().finish();
-        let head = [
-            (TOKEN, token),
-            (PARENT, u64::from(std::process::id())),
-            (MEMORY, memory.unwrap_or(0)),
-            (FILES, files.unwrap_or(0)),
-        ];
-        for (index, value) in head {
-            words[index].store(value, Ordering::Relaxed);
+        let Screen { output_columns, note_columns } = terminal::screen();
+        let columns = [output_columns, note_columns];
+        let start = Start { parent: std::process::id(), limits, columns, request };
+        let mut bytes = postcard::to_stdvec(&start).map_err(io::Error::other)?;
+        words[TOKEN].store(token, Ordering::Relaxed);
+        words[REQUEST].store(bytes.len() as u64, Ordering::Relaxed);
+        bytes.resize(bytes.len().next_multiple_of(WORD), 0);
+        let (values, _) = bytes.as_chunks::<WORD>();
+        if values.len() > RING_WORDS {
+            return Err(io::Error::other("the arguments are too long"));
+        }
+        for (word, value) in words[RING..].iter().zip(values) {
+            word.store(u64::from_le_bytes(*value), Ordering::Relaxed);
         }
         Ok((file, Self { words, token, tail: 0, frame: Vec::new() }))
     }
@@ -203,9 +187,12 @@ impl Inbox {
     }
 
     /// Hands every frame that has come to `take`, whose error ends it; gives the number of words that came.
+    ///
+    /// # Errors
+    /// Memory that the child wrote over; a frame that is none.
     pub(super) fn drain(
         &mut self,
-        take: &mut dyn FnMut(u8, Payload<'_>) -> Result<(), String>,
+        take: &mut dyn FnMut(Frame<'_>) -> Result<(), String>,
     ) -> Result<usize, String> {
         const BROKEN: &str = "it wrote over the memory that carries its results";
         let head = self.words[HEAD].load(Ordering::Acquire);
@@ -215,36 +202,42 @@ impl Inbox {
         }
         let mut left = came as usize;
         while left > 0 {
-            let expected = match self.frame.first() {
-                Some(head) => 2 + (head >> 8) as usize - self.frame.len(),
+            let whole = match self.frame.first_chunk() {
+                Some(length) => FRAME_HEAD + content_bytes(length).ok_or(BROKEN)?.div_ceil(WORD),
                 None => 1,
             };
             let at = (self.tail % RING_WORDS as u64) as usize;
-            let count = expected.min(left).min(RING_WORDS - at);
-            let part = &self.words[RING + at..RING + at + count];
-            self.frame.extend(part.iter().map(|word| word.load(Ordering::Relaxed)));
+            let count = (whole - self.frame.len() / WORD).min(left).min(RING_WORDS - at);
+            for word in &self.words[RING + at..RING + at + count] {
+                self.frame.extend_from_slice(&word.load(Ordering::Relaxed).to_le_bytes());
+            }
             self.tail = self.tail.wrapping_add(count as u64);
             left -= count;
-            if let [head, ..] = self.frame.as_slice()
-                && head >> 8 > MAX_WORDS as u64
-            {
+            let ([length, token, ..], _) = self.frame.as_chunks::<WORD>() else { continue };
+            let length = content_bytes(length).ok_or(BROKEN)?;
+            if self.frame.len() / WORD < FRAME_HEAD + length.div_ceil(WORD) {
+                continue;
+            }
+            if *token != self.token.to_le_bytes() {
                 return Err(BROKEN.to_owned());
             }
-            if let [head, token, payload @ ..] = self.frame.as_slice()
-                && payload.len() as u64 == head >> 8
-            {
-                if *token != self.token {
-                    return Err(BROKEN.to_owned());
-                }
-                take((head & 0xff) as u8, Payload(payload))?;
-                self.frame.clear();
-                // The child may continue while the rest is taken.
-                self.words[TAIL].store(self.tail, Ordering::Release);
+            let content = &self.frame[FRAME_HEAD * WORD..][..length];
+            match postcard::take_from_bytes(content) {
+                Ok((frame, [])) => take(frame)?,
+                _ => return Err(NOT_REQUESTED.to_owned()),
             }
+            self.frame.clear();
+            // The child may continue while the rest is taken.
+            self.words[TAIL].store(self.tail, Ordering::Release);
         }
         self.words[TAIL].store(self.tail, Ordering::Release);
         Ok(came as usize)
     }
+}
+
+/// Length of a frame's content, in bytes; `None` for one beyond all measure.
+fn content_bytes(word: &[u8; WORD]) -> Option<usize> {
+    usize::try_from(u64::from_le_bytes(*word)).ok().filter(|bytes| *bytes <= MAX_BYTES)
 }
 
 #[cfg(test)]

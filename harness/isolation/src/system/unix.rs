@@ -178,13 +178,13 @@ pub(crate) fn take_stdin() -> io::Result<File> {
 }
 
 /// Ends this process when its parent ends, however that happens.
-pub(crate) fn end_with_parent(parent: u64) -> io::Result<()> {
+pub(crate) fn end_with_parent(parent: u32) -> io::Result<()> {
     #[cfg(target_os = "linux")]
     {
         use rustix::process::{getppid, set_parent_process_death_signal};
         set_parent_process_death_signal(Some(Signal::KILL))?;
         let now = getppid().map(|pid| pid.as_raw_nonzero().get());
-        if now.and_then(|pid| u64::try_from(pid).ok()) != Some(parent) {
+        if now.and_then(|pid| u32::try_from(pid).ok()) != Some(parent) {
             return Err(io::Error::other("the parent has ended"));
         }
     }
@@ -192,16 +192,16 @@ pub(crate) fn end_with_parent(parent: u64) -> io::Result<()> {
     Ok(())
 }
 
-/// Limits what this process may allocate, in bytes, and how many files it may keep open; 0 is no limit.
-pub(crate) fn restrict(memory: u64, files: u64) -> io::Result<()> {
-    for (resource, limit) in [(Resource::Data, memory), (Resource::Nofile, files)] {
-        let before = getrlimit(resource);
-        let within = |bound: Option<u64>| bound.is_none_or(|bound| limit < bound);
-        if limit > 0 && within(before.maximum) {
-            setrlimit(resource, Rlimit { current: Some(limit), maximum: Some(limit) })?;
-        }
+/// Limits what this process may allocate, and how many files it may keep open.
+pub(crate) fn restrict(limits: ResourceLimits) -> io::Result<()> {
+    let is_lower =
+        |(resource, limit): &(Resource, u64)| getrlimit(*resource).maximum.is_none_or(|bound| *limit < bound);
+    let bounds =
+        [limits.memory.map(|it| (Resource::Data, it)), limits.files.map(|it| (Resource::Nofile, it))];
+    for (resource, limit) in bounds.into_iter().flatten().filter(is_lower) {
+        setrlimit(resource, Rlimit { current: Some(limit), maximum: Some(limit) })?;
     }
-    if memory > 0 {
+    if limits.memory.is_some() {
         // What is expected to crash leaves no image of its memory.
         setrlimit(Resource::Core, Rlimit { current: Some(0), maximum: Some(0) })?;
     }

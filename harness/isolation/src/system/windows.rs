@@ -247,12 +247,12 @@ pub(crate) fn take_stdin() -> io::Result<File> {
 }
 
 /// This process ends with its parent, which has the only handle of its job.
-pub(crate) fn end_with_parent(_parent: u64) -> io::Result<()> {
+pub(crate) fn end_with_parent(_parent: u32) -> io::Result<()> {
     Ok(())
 }
 
 /// The job bounds what this process may allocate. Windows has no bound on open files.
-pub(crate) fn restrict(_memory: u64, _files: u64) -> io::Result<()> {
+pub(crate) fn restrict(_limits: ResourceLimits) -> io::Result<()> {
     // What crashes or lacks a library opens no window that somebody has to close.
     // SAFETY: of this process alone.
     unsafe { SetErrorMode(SEM_FAILCRITICALERRORS | SEM_NOGPFAULTERRORBOX | SEM_NOOPENFILEERRORBOX) };

@@ -13,8 +13,6 @@ pub mod standing;
 pub mod summary;
 pub mod svg;
 pub mod time_axis;
-pub mod visit;
-pub mod visit_table;
 
 use std::{
     error::Error,
@@ -34,11 +32,9 @@ pub use file::OutputFile;
 pub use known::Known;
 pub use limits::LimitChecks;
 pub use origin::{EPOCH_KEY, Origin};
-pub use standing::{OutputKind, check as check_standing};
+pub use standing::{OutputKind, check as check_standing, open_beside};
 pub use svg::{chart, leave_out, panel, shade_eclipses};
 pub use time_axis::TimeAxis;
-pub use visit::Visit;
-pub use visit_table::{VisitTable, open_visits};
 
 /// A picture of a run.
 #[derive(Clone, Debug)]

@@ -57,6 +57,26 @@ pub fn check(file: &OutputFile, destination: &Destination, kind: OutputKind<'_>)
     }
 }
 
+/// Opens a further table beside a table: NAME-SUFFIX.csv for NAME.csv, with this header; nothing stands beside the standard output.
+///
+/// # Errors
+/// A file that is none, an input, or none of a run where a mission names the table.
+pub fn open_beside(
+    table: &OutputFile,
+    (suffix, header): (&str, &str),
+    inputs: &[&Path],
+) -> Result<Option<Destination>, String> {
+    if table.path == Path::new("-") {
+        return Ok(None);
+    }
+    let stem = table.path.file_stem().unwrap_or_default().to_string_lossy();
+    let file =
+        OutputFile { path: table.path.with_file_name(format!("{stem}-{suffix}.csv")), ..table.clone() };
+    let destination = Destination::open(&file.path, file.option, inputs)?;
+    check(&file, &destination, OutputKind::Table(header.as_bytes()))?;
+    Ok(Some(destination))
+}
+
 /// Relation of a file to the output that would replace it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Standing {

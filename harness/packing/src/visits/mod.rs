@@ -3,12 +3,13 @@
 //! Momentum gathered is the change of `momentum.inertial` without dumps: steps are halved until one that has a dump is short, and while
 //! one lasts the trapezoid of the torque stands for the change. The Sun is that of the middle of a visit, when a slew into it is over.
 
-use fmi::{Error, Instance, Watcher};
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use packing::carried;
-use tables::output::Visit;
+mod table;
 
-use super::{settings::Settings, subject::Subject};
+use fmi::{Error, Fmu, Instance, Watcher};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
+use crate::carried;
+pub use table::{HEADER, VisitTable};
 
 /// Reals that are read, in this order.
 const REALS: [&str; 13] = [
@@ -32,6 +33,47 @@ const INTEGERS: [&str; 2] = ["timeline.command", "dump.count"];
 const DUMPING: &str = "dump.active";
 /// Names of a thruster's variables begin with it.
 const THRUSTER: &str = "thruster[";
+
+/// A visit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Visit {
+    /// Row of the timeline's command, from 1; 0 where none is in force.
+    pub row: i32,
+    /// Begin and end, in s.
+    pub span_s: [f64; 2],
+    /// Azimuth and elevation of the Sun in its middle, in rad.
+    pub sun_rad: [f64; 2],
+    /// Momentum gathered, EME2000, without dumps, in N m s.
+    pub gathered_inertial_n_m_s: Vector3<f64>,
+    /// Dumps in it.
+    pub dumps: i32,
+}
+
+impl Visit {
+    /// Returns the numbers of which [`Visit::from_numbers`] makes it.
+    pub fn numbers(&self) -> Vec<f64> {
+        let whole = [self.row, self.dumps].map(f64::from);
+        [whole, self.span_s, self.sun_rad]
+            .as_flattened()
+            .iter()
+            .chain(&self.gathered_inertial_n_m_s)
+            .copied()
+            .collect()
+    }
+
+    /// Returns the visit of such numbers; `None` of others.
+    pub fn from_numbers(numbers: &[f64]) -> Option<Self> {
+        let [row, dumps, begin_s, end_s, azimuth_rad, elevation_rad, x, y, z] = *numbers else { return None };
+        Some(Self {
+            row: row as i32,
+            dumps: dumps as i32,
+            span_s: [begin_s, end_s],
+            sun_rad: [azimuth_rad, elevation_rad],
+            gathered_inertial_n_m_s: Vector3::new(x, y, z),
+        })
+    }
+}
+
 /// Values at a time.
 #[derive(Clone, Copy, Debug)]
 struct Sample {
@@ -54,7 +96,7 @@ struct Open {
 }
 
 /// Makes visits of a flight by a timeline.
-pub(crate) struct Visits {
+pub struct Visits {
     references: [Vec<u32>; 3],
     counts: bool,
     stop_s: f64,
@@ -64,15 +106,11 @@ pub(crate) struct Visits {
 }
 
 impl Visits {
-    /// For an FMU that flies by a timeline with commands and tells its momentum; `None` for others, and where on-times of thrusters
-    /// are given, which count from the beginning of each step.
-    pub(crate) fn new(subject: &Subject, settings: &Settings) -> Option<Self> {
-        let Subject::Fmu(fmu) = subject else { return None };
-        let (description, stop_s) = (fmu.description(), settings.times.stop_s);
+    /// For an FMU that flies by a timeline with commands and tells its momentum until a stop, with the variables that are given a
+    /// value; `None` for others, and where on-times of thrusters are given, which count from the beginning of each step.
+    pub fn new<'n>(fmu: &Fmu, stop_s: f64, mut given: impl Iterator<Item = &'n String>) -> Option<Self> {
+        let description = fmu.description();
         let has_commands = carried::timeline::names(fmu.folder()).is_some_and(|names| !names.is_empty());
-        let columns = settings.inputs.iter().flat_map(|table| table.positions());
-        let inputs = columns.map(|position| &description.variables[position].name);
-        let mut given = settings.sets.iter().map(|(name, _)| name).chain(inputs);
         if !has_commands || given.any(|name| name.starts_with(THRUSTER)) {
             return None;
         }
@@ -88,7 +126,7 @@ impl Visits {
     }
 
     /// The visits up to where the run came; none where no command was ever in force.
-    pub(crate) fn into_visits(mut self) -> Vec<Visit> {
+    pub fn into_visits(mut self) -> Vec<Visit> {
         self.closed.extend(self.open.map(|open| open.visit));
         self.closed.retain(|visit| visit.span_s[0] < visit.span_s[1]);
         if self.closed.iter().all(|visit| visit.row == 0) { Vec::new() } else { self.closed }
