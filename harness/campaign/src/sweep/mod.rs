@@ -43,8 +43,8 @@ use repeated::Sample;
 use resolved::Campaign;
 use series::Series;
 use started::{Counts, OPTION, Started};
-use worker::RunStatus;
 use table::RunTable;
+use worker::RunStatus;
 pub use worker::run as run_in_child;
 
 /// A campaign file in a line, after all that the command does before its first run.

@@ -11,7 +11,6 @@ use isolation::interrupt;
 
 use super::{
     pool::{Attempt, Pool, RunResult},
-    worker::RunStatus,
 };
 
 /// Runs that are repeated at most, one a process.

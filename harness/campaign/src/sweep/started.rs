@@ -55,7 +55,9 @@ impl Counts {
     }
 
     pub(super) fn status(&self) -> Answer {
-        Answer::from([RunStatus::Failed, RunStatus::Killed].iter().all(|status| self.0[*status as usize] == 0))
+        Answer::from(
+            [RunStatus::Failed, RunStatus::Killed].iter().all(|status| self.0[*status as usize] == 0),
+        )
     }
 
     pub(super) fn text(&self) -> String {

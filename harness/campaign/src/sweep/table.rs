@@ -6,11 +6,7 @@ use files::Growing;
 use fmi::csv::{self, Real};
 use model_description::Description;
 
-use super::{
-    pool::RunResult,
-    resolved::Campaign,
-    worker::RunStatus,
-};
+use super::{pool::RunResult, resolved::Campaign, worker::RunStatus};
 
 /// Rows in order.
 pub(super) struct RunTable<'a> {
@@ -115,7 +111,8 @@ impl LeftRows {
                 return Err(format!("{shown}: found another run {run}, allowed: {expected}"));
             }
             // Numbers hold no comma; behind them stand how the run ended and the reason.
-            let word = row.split(',').nth(1 + campaign.varied.len() + campaign.kept.count()).unwrap_or_default();
+            let word =
+                row.split(',').nth(1 + campaign.varied.len() + campaign.kept.count()).unwrap_or_default();
             let status = RunStatus::ALL.into_iter().find(|status| status.word() == word);
             let status =
                 status.ok_or_else(|| format!("{shown}: run {run}: found {word:?}, allowed: how it ended"))?;

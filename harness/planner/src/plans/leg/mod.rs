@@ -3,11 +3,7 @@
 mod flights;
 mod picture;
 
-use std::{
-    cell::RefCell,
-    path::Path,
-    time::Instant,
-};
+use std::{cell::RefCell, path::Path, time::Instant};
 
 use ::files::{OutputFolder, Scratch};
 use files::outcome::{self, Answer, Outcome};
