@@ -9,9 +9,7 @@ use std::{
 use fmi::csv::Real;
 use isolation::interrupt;
 
-use super::{
-    pool::{Attempt, Pool, RunResult},
-};
+use super::pool::{Attempt, Pool, RunResult};
 
 /// Runs that are repeated at most, one a process.
 const MOST: u64 = 4;
