@@ -1,4 +1,4 @@
-//! Quaternions keep their sign along the flight: continuous however far it turns, whoever looks when, saved and restored.
+//! Quaternions keep their sign along the flight: continuous however far it turns, saved, restored, looked at by anybody at any time.
 
 use models::MomentumPlant;
 use nalgebra::Vector4;
@@ -38,7 +38,7 @@ const FREE: Sets<'_> = &[
     ("control.rate", 10.0),
 ];
 
-/// A turn that begins and ends within a step, of which the rates there say nothing, is shorter.
+/// A turn that begins and ends within a step, invisible in the rates there, is shorter.
 const UNSEEN: f64 = 0.05;
 
 fn quaternion(flight: &NamedInstance<'_, MomentumPlant>, name: &str) -> Vector4<f64> {

@@ -1,4 +1,4 @@
-//! What follows the centre of a spacecraft's orbit: start values by the file's, and what is left at them by another's.
+//! Start values that follow the centre of a spacecraft's orbit by its own file, and those that another centre leaves at them.
 
 use fmi_export::fmi2::entry;
 use fmi_export::{Library, Model};
@@ -207,7 +207,7 @@ fn a_group_of_which_everything_is_written_follows_the_center_still() {
     assert_eq!(other.real("orbit.eccentricity"), 0.0);
 }
 
-/// What acts reads back, for every body, within the limits of what may be set.
+/// Values that act read back, for every body, within the limits of settings.
 #[test]
 fn what_follows_the_center_reads_back() {
     let text = sailer();

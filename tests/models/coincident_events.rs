@@ -134,7 +134,7 @@ impl Arrangement {
         arrangement
     }
 
-    /// Sets a start value, of which no other event of the flight needs another one.
+    /// Sets a start value that no other event of the flight needs otherwise.
     fn put(&mut self, name: &'static str, value: f64) {
         let before = self.sets.insert(name, value);
         assert!(before.is_none_or(|it| it == value), "{name}: {before:?} and {value}");

@@ -1,4 +1,4 @@
-//! A body of the user's own, of which the spacecraft's file tells, against closed forms.
+//! A body of the user's own, described by the spacecraft's file, against closed forms.
 
 use core::f64::consts::TAU;
 
@@ -13,7 +13,7 @@ const SAILER: &str = include_str!("../../fmu-src/resources/examples/solar-sailer
 const GM_M3_S2: f64 = 69_886.0;
 const AXIS_M: f64 = 4e11;
 const GM_SUN_M3_S2: f64 = 1.327_124_400_41e20;
-/// Of the ecliptic of J2000.
+/// Obliquity of the ecliptic of J2000.
 const OBLIQUITY_RAD: f64 = 84_381.448 / 3600.0 * TAU / 360.0;
 /// The item `custom`.
 const CUSTOM: f64 = 100.0;

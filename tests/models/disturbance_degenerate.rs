@@ -14,7 +14,8 @@ const RADIUS_M: f64 = 2.4394e6;
 #[test]
 fn on_the_axes_everything_is_finite() {
     let cylinder = include_str!("../../fmu-src/resources/messenger.toml");
-    for mut fmu in [Disturbance::messenger(), Disturbance::shadowed(), Disturbance::of("cylinder", cylinder)]
+    for mut fmu in
+        [Disturbance::messenger(), Disturbance::shadowed(), Disturbance::from_text("cylinder", cylinder)]
     {
         fmu.start();
         let outputs = fmu.references(Causality::Output);

@@ -22,7 +22,7 @@ const ELLIPSE: &[(&str, f64)] = &[
 ];
 const FREE: &[(&str, f64)] = &[("attitude.source", 4.0), ("start.q[4]", 1.0)];
 
-/// So many seconds before a midnight UTC, at which the air's model goes on to another day of the year.
+/// Seconds before a midnight UTC, at which the air's model goes on to another day of the year.
 fn before_midnight(seconds: f64) -> [(&'static str, f64); 1] {
     [("start.epoch", dates::epoch_s("2024-03-21 UTC").unwrap() - seconds)]
 }

@@ -1,4 +1,4 @@
-//! What a spacecraft file fixes is a local constant, and dependencies are those of that choice.
+//! Values that a spacecraft file fixes are local constants, and dependencies are those of that choice.
 
 use fmi_export::Model;
 use fmi_export::model_description::{

@@ -151,7 +151,7 @@ impl<M: Model> NamedModel<M> {
             .to_string()
     }
 
-    /// What a master may set, with its limits and whether it is a whole number.
+    /// Value that a master may set, with its limits and whether it is a whole number.
     pub(crate) fn given(&self) -> Vec<(&str, (f64, f64), bool)> {
         let given = |it: &Named| it.given.is_some();
         let shown = |it: &'_ Named| (it.given.unwrap_or_default(), it.kind != NamedType::Real);
@@ -229,7 +229,7 @@ impl<M: Model> NamedModel<M> {
         start_s: f64,
         sets: &[(&str, f64)],
     ) -> Result<NamedInstance<'_, M>, Failure> {
-        let mut tables = Tables::of(&self.start);
+        let mut tables = Tables::new(&self.start);
         tables.set.iter_mut().flatten().for_each(|word| *word = 0);
         sets.iter().for_each(|(name, value)| self.set(&mut tables, name, *value));
         let mut values = tables.back();
@@ -251,9 +251,9 @@ impl<M: Model> NamedModel<M> {
     }
 }
 
-/// Start values of which those of the setup's file are marked as given.
+/// Start values, those of the setup's file marked as given.
 fn marked<M: Model>(start: &Values, setup: &M::Setup, names: &[Named]) -> Values {
-    let mut tables = Tables::of(start);
+    let mut tables = Tables::new(start);
     let given: Vec<_> = M::start_values(setup);
     let for_this = given.iter().filter(|it| it.model.as_ref().is_none_or(|model| model == M::NAME));
     for entry in for_this {
@@ -266,7 +266,7 @@ fn marked<M: Model>(start: &Values, setup: &M::Setup, names: &[Named]) -> Values
 
 /// Start values with those of the setup's file.
 pub(crate) fn with_file_starts(start: &Values, description: &Description) -> Values {
-    let mut tables = Tables::of(start);
+    let mut tables = Tables::new(start);
     for variable in &description.variables {
         let slot = |base| (variable.value_reference - references::first(base)) as usize;
         match &variable.kind {
@@ -296,7 +296,7 @@ pub(crate) struct Tables {
 }
 
 impl Tables {
-    pub(crate) fn of(values: &Values) -> Self {
+    pub(crate) fn new(values: &Values) -> Self {
         postcard::from_bytes(&postcard::to_stdvec(values).unwrap()).unwrap()
     }
 
@@ -308,7 +308,7 @@ impl Tables {
                 bits[at / 64] |= 1 << (at % 64);
             }
         }
-        let (mut marked, start) = (self.clone(), Self::of(start));
+        let (mut marked, start) = (self.clone(), Self::new(start));
         let [reals, integers, booleans, strings] = &mut marked.set;
         mark(reals, &self.reals, &start.reals);
         mark(integers, &self.integers, &start.integers);
@@ -355,7 +355,7 @@ impl<M: Model> NamedInstance<'_, M> {
     pub(crate) fn step_moving(&mut self, end_s: f64, rates: &[(&str, f64)]) -> Result<(), Failure> {
         let moved = std::mem::replace(&mut self.moved, !rates.is_empty());
         // Who set a value is no matter.
-        let unmarked = |values: &Values| Tables { set: Default::default(), ..Tables::of(values) };
+        let unmarked = |values: &Values| Tables { set: Default::default(), ..Tables::new(values) };
         let set = self.before.as_ref().is_some_and(|before| unmarked(before) != unmarked(&self.values));
         let derivatives: Vec<InputDerivative> = rates
             .iter()
@@ -390,7 +390,7 @@ impl<M: Model> NamedInstance<'_, M> {
     /// Sets an input or tunable.
     pub(crate) fn set(&mut self, name: &str, value: f64) {
         self.before.get_or_insert_with(|| self.values.clone());
-        let mut tables = self.tables.take().unwrap_or_else(|| Tables::of(&self.values));
+        let mut tables = self.tables.take().unwrap_or_else(|| Tables::new(&self.values));
         self.named.set(&mut tables, name, value);
         self.values = tables.back();
         self.tables = OnceCell::from(tables);
@@ -404,7 +404,7 @@ impl<M: Model> NamedInstance<'_, M> {
     }
 
     fn tables(&self) -> &Tables {
-        self.tables.get_or_init(|| Tables::of(&self.values))
+        self.tables.get_or_init(|| Tables::new(&self.values))
     }
 
     /// A Real.

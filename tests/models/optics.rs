@@ -315,7 +315,7 @@ fn a_bias_adds_to_the_angle_of_a_panel_under_every_control() {
     }
 }
 
-/// What can act has parameters: air where the file has it or is about the Earth, sunlight alone in Guidance, and no material that
+/// Sources that can act have parameters: air where the file has it or is about the Earth, sunlight alone in Guidance, and no material that
 /// no surface is made of.
 #[test]
 fn parameters_are_those_that_can_act() {

@@ -1,4 +1,4 @@
-//! What a master sets, at the start or on the way, acts where its name says and from when it was set.
+//! Values that a master sets, at the start or on the way, act as their names say and from the time they were set.
 
 use models::{DisturbanceTorque, MomentumPlant};
 use nalgebra::Vector3;
@@ -100,12 +100,12 @@ fn an_orbit_given_on_the_way_begins_when_it_was_given() {
     }
 }
 
-/// Where a disturbed orbit is after a minute.
+/// Position on a disturbed orbit after a minute.
 fn after_a_minute(sets: &[(&str, f64)]) -> Vector3<f64> {
     a_minute(sets)[1]
 }
 
-/// Where a disturbed orbit begins and where it is after a minute.
+/// Position on a disturbed orbit at its beginning and after a minute.
 fn a_minute(sets: &[(&str, f64)]) -> [Vector3<f64>; 2] {
     let named = NamedModel::<MomentumPlant>::shipped();
     let still = [("orbit.dynamics", 2.0), ("orbit.radiationFeedback", 0.0)];

@@ -1,4 +1,4 @@
-//! What cannot be simulated is refused by name, with what was found and what is allowed.
+//! Settings that cannot be simulated are refused by name, with what was found and what is allowed.
 
 use models::MomentumPlant;
 

@@ -143,7 +143,7 @@ fn the_inertial_force_is_the_bodys_turned_and_moves_the_mass() {
     assert!((vector(&mut plant, "acceleration") * mass_kg - found).norm() < 1e-14);
 }
 
-/// Nothing acts but a force that rises: F t + F' t^2 / 2 over the mass, and the slope is for one step only.
+/// A force that rises acts alone: F t + F' t^2 / 2 over the mass, and the slope is for one step only.
 #[test]
 fn a_force_with_a_slope_is_integrated() {
     let mut plant = momentum_plant();

@@ -16,7 +16,7 @@ pub(crate) fn busy(since: Instant) -> Duration {
 }
 
 const LIMIT: f64 = 100_000.0;
-/// Of a unit, at most; by default a step then ends within 20 s.
+/// Largest time of a unit; by default a step then ends within 20 s.
 const LONGEST_UNIT: Duration = Duration::from_nanos(2_000);
 /// Preparing a flight, and the last thing a step did.
 const OTHERWISE: Duration = Duration::from_millis(400);
@@ -64,7 +64,7 @@ fn light_and_heat_of_a_controlled_flight_count() {
     }
 }
 
-/// What a step may cost does not depend on what its instance computed before.
+/// The cost of a step does not depend on what its instance computed before.
 #[test]
 fn a_step_that_passed_passes_after_its_state_was_restored_elsewhere() {
     let orbiter = include_str!("../../fmu-src/resources/examples/mercury-orbiter.toml");

@@ -10,7 +10,7 @@ const SAILER: &str = include_str!("../../fmu-src/resources/examples/solar-sailer
 const TELESCOPE: &str = include_str!("../../fmu-src/resources/examples/sunshield-telescope.toml");
 const MESSENGER: &str = include_str!("../../fmu-src/resources/messenger.toml");
 
-/// The warnings of a flight over so many seconds.
+/// The warnings of a flight over these seconds.
 fn warned(text: &str, sets: &[(&str, f64)], end_s: f64) -> Vec<String> {
     let named = NamedModel::<MomentumPlant>::with("my.toml", text);
     let mut flight = named.initialize(0.0, sets).unwrap();

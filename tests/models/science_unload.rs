@@ -185,7 +185,7 @@ fn the_torque_is_what_a_memoryless_model_finds_with_the_sun_there() {
     assert!(science > 100 && (4..=6).contains(&places.len()), "{science} {places:?}");
 }
 
-/// What tells Guidance where the plant is.
+/// Inputs by which Guidance knows the plant's position.
 fn places(plant: &Plant<'_>) -> Vec<(String, f64)> {
     let vectors = ["position", "velocity", "momentum.body"].into_iter().flat_map(|name| {
         let value = plant.vector(name);

@@ -145,7 +145,7 @@ position_m = [0.0, 0.0, 0.0]
 propellant_kg = 50.0
 "#;
 
-/// Of the thrusters here, with 220 s.
+/// Specific impulse of the thrusters here, with 220 s.
 pub(crate) const EXHAUST_M_S: f64 = 220.0 * 9.80665;
 
 pub(crate) fn thruster(position: [f64; 3], direction: [f64; 3], force_n: f64, more: &str) -> String {

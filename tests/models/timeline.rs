@@ -35,7 +35,7 @@ fn planned(timeline: &str) -> NamedModel<MomentumPlant> {
         .with_schedule("timeline.toml", timeline)
 }
 
-/// What a plan has from a time on: offset and windmill of the panels, azimuth and elevation of the Sun, in deg, the alternate attitude.
+/// Row of a plan from a time on: offset and windmill of the panels, azimuth and elevation of the Sun, in deg, the alternate attitude.
 struct Window(f64, [f64; 2], [f64; 2], bool);
 
 const PLAN: [Window; 6] = [

@@ -15,7 +15,7 @@ use super::random::RandomNumbers;
 use super::restored_states::SPINNER_BY_CELLS;
 use super::spacecraft::{RADIATING, SIMPLE};
 
-/// Of a step, in time that its thread computed.
+/// Largest duration of a step, in time that its thread computed.
 const LONGEST: Duration = Duration::from_secs(1);
 
 const FORGED: [f64; 14] = [
@@ -35,7 +35,7 @@ const FORGED: [f64; 14] = [
     -1.0,
 ];
 
-/// Of these, what is put everywhere: the first three in the tests' short extent.
+/// Numbers that are put everywhere: the first three in the tests' short extent.
 const EXTREME: &[f64] = &[f64::NAN, 1e200, -1.0, f64::INFINITY, -1e308, 1e-308, 0.0];
 
 /// One of these numbers wherever one may stand.
@@ -48,7 +48,7 @@ fn everywhere(state: &[u8], forged: &[f64]) -> Vec<Vec<u8>> {
     (0..state.len() - 8).flat_map(|place| forged.iter().map(move |number| at(place, *number))).collect()
 }
 
-/// So many with a number, some bytes or a bit that came anyhow.
+/// States torn at random by a number, some bytes or a bit.
 fn scattered(state: &[u8], count: usize) -> Vec<Vec<u8>> {
     let mut random = RandomNumbers(1);
     let mut tear = || {
@@ -104,7 +104,7 @@ fn goes_on_or_fails<M: Model>(
     assert!(refused > 20 && simulated > 10, "{refused} {simulated}");
 }
 
-/// What a torn state may ask for in vain; a sound one needs less.
+/// Largest memory that a torn state may ask for in vain; a sound one needs less.
 const LIMIT: (&str, f64) = ("solver.workLimit", 2e4);
 
 #[test]

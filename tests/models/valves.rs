@@ -6,7 +6,7 @@ use models::{MomentumPlant, SpinPlant};
 use super::named_model::{NamedInstance, NamedModel};
 use super::spacecraft::{EXHAUST_M_S, SIMPLE, thruster};
 
-/// What is commanded for one step: its length, delay and time of the pulse, in s.
+/// Command of one step: its length, delay and time of the pulse, in s.
 type Commanded = [f64; 3];
 
 /// Commands, the time for which the valve is open, in s, and whether each step's pulse does not open it.
@@ -18,7 +18,7 @@ struct ValveCase {
 }
 
 impl ValveCase {
-    fn of(commanded: &[Commanded], open_s: f64, too_short: &[bool], pulses: i32) -> Self {
+    fn new(commanded: &[Commanded], open_s: f64, too_short: &[bool], pulses: i32) -> Self {
         Self { commanded: commanded.to_vec(), open_s, too_short: too_short.to_vec(), pulses }
     }
 }
@@ -28,32 +28,32 @@ fn cases() -> Vec<ValveCase> {
     let many = |step_s: f64, count: usize| vec![[step_s, 0.0, step_s]; count];
     let mut cases = vec![
         // Inside a step, and just long enough.
-        ValveCase::of(&[[1.0, 0.2, 0.6]], 0.6, &[false], 1),
-        ValveCase::of(&[[1.0, 0.2, 0.5]], 0.5, &[false], 1),
+        ValveCase::new(&[[1.0, 0.2, 0.6]], 0.6, &[false], 1),
+        ValveCase::new(&[[1.0, 0.2, 0.5]], 0.5, &[false], 1),
         // Too short inside a step, and beyond it.
-        ValveCase::of(&[[1.0, 0.2, 0.3]], 0.0, &[true], 0),
-        ValveCase::of(&[[1.0, 1.2, 0.8]], 0.0, &[true], 0),
+        ValveCase::new(&[[1.0, 0.2, 0.3]], 0.0, &[true], 0),
+        ValveCase::new(&[[1.0, 1.2, 0.8]], 0.0, &[true], 0),
         // Cut at the step's end, after more than the shortest time and before.
-        ValveCase::of(&[[1.0, 0.4, 1.0]], 0.6, &[false], 1),
-        ValveCase::of(&[[1.0, 0.99, 0.5]], 0.5, &[false], 1),
+        ValveCase::new(&[[1.0, 0.4, 1.0]], 0.6, &[false], 1),
+        ValveCase::new(&[[1.0, 0.99, 0.5]], 0.5, &[false], 1),
         // Too short, but up to the step's end.
-        ValveCase::of(&[[1.0, 0.8, 0.2]], 0.5, &[false], 1),
+        ValveCase::new(&[[1.0, 0.8, 0.2]], 0.5, &[false], 1),
         // One step shorter than the shortest time, and three of them in a row with a pulse each.
-        ValveCase::of(&[[0.1, 0.0, 0.1]], 0.5, &[false], 1),
-        ValveCase::of(&[[0.1, 0.0, 0.1]; 3], 0.5, &[false; 3], 1),
+        ValveCase::new(&[[0.1, 0.0, 0.1]], 0.5, &[false], 1),
+        ValveCase::new(&[[0.1, 0.0, 0.1]; 3], 0.5, &[false; 3], 1),
         // Still open where the next step begins: what it asks for from there joins on, what is too short on its own does not.
-        ValveCase::of(&[[1.0, 0.9, 0.1], [1.0, 0.0, 0.7]], 0.8, &[false; 2], 1),
-        ValveCase::of(&[[1.0, 0.9, 0.1], [1.0, 0.0, 0.01]], 0.5, &[false; 2], 1),
-        ValveCase::of(&[[1.0, 0.0, 1.0], [1.0, 0.0, 0.01]], 1.01, &[false; 2], 1),
-        ValveCase::of(&[[1.0, 0.9, 0.1], [1.0, 0.1, 0.35]], 0.5, &[false, true], 1),
-        ValveCase::of(&[[1.0, 0.9, 0.1], [1.0, 0.1, 0.6]], 0.8, &[false; 2], 1),
-        ValveCase::of(&[[1.0, 0.9, 0.1], [1.0, 0.45, 0.5]], 1.0, &[false; 2], 2),
+        ValveCase::new(&[[1.0, 0.9, 0.1], [1.0, 0.0, 0.7]], 0.8, &[false; 2], 1),
+        ValveCase::new(&[[1.0, 0.9, 0.1], [1.0, 0.0, 0.01]], 0.5, &[false; 2], 1),
+        ValveCase::new(&[[1.0, 0.0, 1.0], [1.0, 0.0, 0.01]], 1.01, &[false; 2], 1),
+        ValveCase::new(&[[1.0, 0.9, 0.1], [1.0, 0.1, 0.35]], 0.5, &[false, true], 1),
+        ValveCase::new(&[[1.0, 0.9, 0.1], [1.0, 0.1, 0.6]], 0.8, &[false; 2], 1),
+        ValveCase::new(&[[1.0, 0.9, 0.1], [1.0, 0.45, 0.5]], 1.0, &[false; 2], 2),
         // Every second step, each shorter than the shortest time.
-        ValveCase::of(&[[0.4, 0.1, 0.3], [0.4, 0.0, 0.0], [0.4, 0.1, 0.3]], 1.0, &[false; 3], 2),
+        ValveCase::new(&[[0.4, 0.1, 0.3], [0.4, 0.0, 0.0], [0.4, 0.1, 0.3]], 1.0, &[false; 3], 2),
     ];
     // One pulse of 1.5 s, in steps of any length.
     for (step_s, count) in [(1.5, 1), (0.75, 2), (0.5, 3), (0.3, 5), (0.1, 15), (0.05, 30), (0.01, 150)] {
-        cases.push(ValveCase::of(&many(step_s, count), 1.5, &vec![false; count], 1));
+        cases.push(ValveCase::new(&many(step_s, count), 1.5, &vec![false; count], 1));
     }
     cases
 }
@@ -124,7 +124,7 @@ fn a_pulse_over_many_steps_of_the_spinner_scatters_once() {
     let named = NamedModel::<SpinPlant>::shipped();
     let sets = [("burn.plan", 4.0), ("pulse.resolution", 0.0), ("thruster[1].scatter", 0.1)];
     let used_kg = |step_s: f64, count: usize| {
-        let case = ValveCase::of(&vec![[step_s, 0.0, step_s]; count], 0.0, &vec![false; count], 1);
+        let case = ValveCase::new(&vec![[step_s, 0.0, step_s]; count], 0.0, &vec![false; count], 1);
         open_s(&mut named.initialize(0.0, &sets).unwrap(), &case, 0.0, 1.0)
     };
     let whole_kg = used_kg(1.5, 1);

@@ -80,7 +80,7 @@ fn is_set(variable: &ScalarVariable) -> bool {
     matches!(variable.causality, Causality::Input | Causality::Parameter)
 }
 
-/// What two variables of one name differ in.
+/// Differences of two variables of one name.
 fn differences(a: &ScalarVariable, b: &ScalarVariable) -> Vec<String> {
     let compared: &[&str] = if a.causality == b.causality {
         &["type", "unit", "displayUnit", "min", "max", "default", "description"]
@@ -217,7 +217,7 @@ fn bare_of(name: &str) -> String {
     bare
 }
 
-/// What is left where spelling does not count: case, plurals, British and American endings.
+/// A word without its spelling: case, plurals, British and American endings.
 fn folded(name: &str) -> String {
     let words = name.to_lowercase().replace("centre", "center").replace("colour", "color");
     words.split('.').map(|word| word.trim_end_matches('s')).collect()

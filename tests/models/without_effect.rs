@@ -1,4 +1,4 @@
-//! What is set and can have no effect is refused or reported by name.
+//! Settings that can have no effect are refused or reported by name.
 
 use fmi_export::Model;
 use models::{DisturbanceTorque, MomentumPlant};
@@ -84,7 +84,7 @@ fn a_map_of_the_planet_that_nothing_reads() {
     assert!(found.len() == 1 && found[0].contains("DisturbanceTorque alone takes it"), "{found:?}");
 }
 
-/// What a switch leaves out is 0 by source, in the totals and by face; nothing else changes.
+/// A source that a switch leaves out is 0 by itself, in the totals and by face; nothing else changes.
 #[test]
 fn each_switch_of_disturbance_torque_takes_one_source_away() {
     let named = NamedModel::<DisturbanceTorque>::with("my.toml", RADIATING);

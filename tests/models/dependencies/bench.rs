@@ -14,12 +14,12 @@ use super::variable::{Base, Variable, natural, variables};
 const STEPS_S: [f64; 2] = [1e-3, 1e-4];
 /// Least ratio of the change after the shorter step to that after the longer.
 const DIRECT: f64 = 0.5;
-/// What counts as a change, relative to the greatest component of the vector or its nominal value. Less is rounding: of
+/// Smallest change that counts, relative to the greatest component of the vector or its nominal value. Less is rounding: of
 /// epochs to 4e-9 s, through which the spacecraft moves, and of forces and torques fitted to 1e-10.
 const CHANGE: f64 = 1e-8;
 /// Values a known is changed to at a state.
 const CHANGES: usize = 2;
-/// Of the parameters this share is changed at a state.
+/// Fraction of the parameters that is changed at a state.
 const SHARE: f64 = 0.3;
 
 struct Silent;
@@ -104,7 +104,7 @@ impl<M: Model> Bench<M> {
     }
 
     pub(super) fn defaults(&self) -> Tables {
-        Tables::of(&self.start)
+        Tables::new(&self.start)
     }
 
     /// Writes a variable, if the spacecraft has it and a master may set it.
@@ -137,7 +137,7 @@ impl<M: Model> Bench<M> {
     pub(super) fn initialize(&self, tables: &Tables, start_s: f64) -> Option<Simulation<M>> {
         let mut values = tables.marked_where_other_than(&self.start).back();
         let state = M::initialize(&self.context(), &mut values, start_s).ok()?;
-        Some(Simulation { values: Tables::of(&values), state, time_s: start_s, changed: false })
+        Some(Simulation { values: Tables::new(&values), state, time_s: start_s, changed: false })
     }
 
     pub(super) fn step(&self, flight: &mut Simulation<M>, length_s: f64) -> Option<()> {
@@ -153,7 +153,7 @@ impl<M: Model> Bench<M> {
         M::step(&self.context(), &mut values, &mut flight.state, &step).ok()?;
         let (context, all) = (self.context(), OutputGroups::ALL);
         M::EXTENSIONS.write_outputs(&context, &mut values, &mut flight.state, all, end_s).ok()?;
-        flight.values = Tables::of(&values);
+        flight.values = Tables::new(&values);
         flight.time_s = end_s;
         flight.changed = false;
         Some(())
@@ -268,7 +268,7 @@ impl<M: Model> Bench<M> {
         change / (CHANGE * both.fold(least, |size, value| size.max(value.abs())))
     }
 
-    /// What was seen and is not declared, a line an unknown. It counts from the second state on: an event may fall right on a
+    /// Dependencies seen and not declared, a line an unknown. They count from the second state on: an event may fall right on a
     /// communication point, but not twice.
     pub(super) fn undeclared(&self) -> String {
         let structure = &self.description.structure;

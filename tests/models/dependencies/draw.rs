@@ -23,7 +23,7 @@ pub(super) enum Draw {
 /// A variable, with `*` for every index of a group, how it is drawn and how often; otherwise it stays at its default.
 pub(super) type DrawRule = (&'static str, Draw, f64);
 
-/// Which enumerations and flags stay as they are, by the beginning of their names.
+/// Enumerations and flags that stay as they are, by the beginning of their names.
 pub(super) type Kept = &'static [&'static str];
 
 /// Draws options and numbers.

@@ -10,7 +10,7 @@ use super::bench::Bench;
 use super::draw::Draw::{Between, Flag, Rotation, Vector, Whole};
 use super::draw::{DrawRule, Kept, draw, redraw};
 
-/// In a long search there are so many times as many states.
+/// Factor of the number of states in a long search.
 const LONG: usize = 200;
 
 /// Forces and torques are fitted so closely that nothing is left of what lies ahead.

@@ -1,4 +1,4 @@
-//! What the search knows of a variable: its place in the tables, its limits, and a change of it that matters.
+//! A variable as the search knows it: its index in the tables, its limits, and a change of it that matters.
 
 use std::collections::BTreeMap;
 

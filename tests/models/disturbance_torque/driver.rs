@@ -24,7 +24,7 @@ pub(crate) const MOLAR_MASS_KG_MOL: f64 = 0.016;
 pub(crate) const SPEED_M_S: f64 = 7.6e3;
 pub(crate) const FIELD_T: f64 = 3e-5;
 
-/// What the spacecraft with shadows starts with.
+/// Start values of the spacecraft with shadows.
 const SHADOWED: &str = r#"
 [start]
 "planetLight.enabled" = true
@@ -77,11 +77,11 @@ impl Disturbance {
 
     /// The spacecraft with shadows.
     pub(crate) fn shadowed() -> Self {
-        Self::of("shadowed", &format!("{RADIATING}{SHADOWED}"))
+        Self::from_text("shadowed", &format!("{RADIATING}{SHADOWED}"))
     }
 
     /// The spacecraft of a TOML text, in a folder of its own.
-    pub(crate) fn of(name: &str, text: &str) -> Self {
+    pub(crate) fn from_text(name: &str, text: &str) -> Self {
         Self(instance("DisturbanceTorque", name, text))
     }
 
@@ -98,7 +98,7 @@ impl Disturbance {
         self
     }
 
-    /// With light of the planet by cells in so many belts.
+    /// Takes light of the planet by cells in this number of belts.
     pub(crate) fn by_cells(mut self, belts: i32) -> Self {
         self.put_integer("planetLight.method", 2);
         self.put_integer("planetLight.belts", belts);
@@ -121,7 +121,7 @@ impl Disturbance {
         &self.description.variables.iter().find(is).unwrap().name
     }
 
-    /// Of each of `outputs`, where it and the other components of its vector stand in them.
+    /// Indices in `outputs` of each output and of the other components of its vector.
     pub(crate) fn vectors_of(&self, outputs: &[u32]) -> Vec<Vec<usize>> {
         let vector = |reference: u32| {
             let name = self.name(reference);

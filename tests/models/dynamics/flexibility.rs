@@ -23,7 +23,7 @@ axis = [0.0, 0.0, 1.0]
 damping = 0.01
 ";
 
-/// Two rotors out of balance, one of which turns fast.
+/// Two rotors out of balance, a slow and a fast one.
 const UNBALANCED: Start<'_> = &[
     ("wheel[1].staticImbalance", 2e-5),
     ("wheel[1].position[1]", 0.4),

@@ -20,7 +20,7 @@ use super::named_model::{NamedInstance, NamedModel};
 type PlantInstance<'a> = NamedInstance<'a, MomentumPlant>;
 type Start<'a> = &'a [(&'a str, f64)];
 
-/// Nothing acts.
+/// Plant without any source of torque.
 const DARK: Start<'_> = &[
     ("solar.flux", 0.0),
     ("gravityGradient.enabled", 0.0),

@@ -1,4 +1,4 @@
-//! What is conserved, and what the guided flight says.
+//! Conserved momentum, and the momentum of the guided flight.
 
 use client::short_or_long;
 

@@ -1,4 +1,4 @@
-//! What cannot be simulated is refused by name.
+//! Settings that cannot be simulated are refused by name.
 
 use models::MomentumPlant;
 

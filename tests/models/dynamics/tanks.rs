@@ -135,7 +135,7 @@ fn no_load_of_the_tanks_ends_a_flight_or_gives_more_than_it_holds() {
     }
 }
 
-/// The auxiliary tank alone feeds thrusters that give torque all ways.
+/// The auxiliary tank alone feeds thrusters that give torque about every axis, either way.
 #[test]
 fn a_dump_goes_as_far_as_there_is_propellant() {
     let target = Vector3::new(0.1, 0.2, -0.1);

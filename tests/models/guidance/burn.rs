@@ -22,7 +22,7 @@ fn thrust_body() -> Vector3<f64> {
     Vector3::new(0.01, -0.02, 1.0).normalize()
 }
 
-/// What a master's exchange leaves at a second: the spacecraft follows the command, thrust has acted for `on_s` so far.
+/// Inputs after a master's exchange at a second: the spacecraft follows the command, thrust has acted for `on_s` so far.
 fn exchange(flight: &mut GuidanceInstance<'_>, on_s: f64) {
     let q = flight.quaternion("command.q");
     flight.set_elements("estimate.q", &q);

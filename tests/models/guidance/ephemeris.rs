@@ -1,4 +1,4 @@
-//! Onboard ephemerides: what contradicts the Sun sensors is not used, and each mode goes by what paper 001 lets it.
+//! Onboard ephemerides: one that contradicts the Sun sensors is not used, and each mode keeps to what paper 001 allows it.
 
 use models::Guidance;
 use nalgebra::Vector3;
@@ -37,7 +37,7 @@ fn with_file(span_s: f64, turned_rad: f64) -> NamedModel<Guidance> {
     NamedModel::<Guidance>::shipped().with_schedule(FILE, &file(span_s, turned_rad).0)
 }
 
-/// What sensors measure of an attitude that is the commanded one: estimate and Sun.
+/// Measurements of the commanded attitude: estimate and Sun.
 fn sense(flight: &mut GuidanceInstance<'_>) {
     let to_body = to_inertial(flight).inverse();
     let sun_m = from_mercury(Body::Sun, START_S + flight.time_s()).position_m - position_m();

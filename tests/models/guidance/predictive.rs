@@ -9,7 +9,7 @@ use super::{GuidanceInstance, with};
 const HOUR_S: f64 = 3600.0;
 const CYCLE_S: f64 = 24.0 * HOUR_S;
 
-/// What both are reported alike: the centre of mass 5 cm off along Z, a shade alone in the light.
+/// Start values of both, reported alike: the centre of mass 5 cm off along Z, a shade alone in the light.
 fn spacecraft(strategy: f64, convention: f64) -> Vec<(&'static str, f64)> {
     vec![
         ("momentum.strategy", strategy),
@@ -53,7 +53,7 @@ fn observe(guidance: &mut GuidanceInstance<'_>, plant: &NamedInstance<'_, Moment
     guidance.set_elements("estimate.q", &plant.quaternion("attitude.q"));
 }
 
-/// Where a downlink begins, a hundredth of a second into it.
+/// Beginning of a downlink, a hundredth of a second into it.
 fn downlink_s(cycle: u32) -> f64 {
     2.0 * HOUR_S + f64::from(cycle) * CYCLE_S + 0.01
 }

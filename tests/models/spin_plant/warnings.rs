@@ -1,4 +1,4 @@
-//! What can be simulated but will disappoint is logged once, in the instance's log.
+//! Settings that can be simulated but will disappoint are logged once, in the instance's log.
 
 use model_description::Status;
 
