@@ -181,6 +181,7 @@ quantities! {
         {
             "type": "array",
             "prefixItems": [{ "type": "string" }, { "type": "string" }, { "type": "number", "minimum": -1, "maximum": 1 }],
+            "items": { "type": ["string", "number"] },
             "minItems": 3,
             "maxItems": 3
         };
