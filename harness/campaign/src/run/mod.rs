@@ -1,6 +1,6 @@
 //! `heliotorque run`: runs an FMU or a system in a process of its own, records, writes, draws.
 
-mod checked;
+pub mod checked;
 mod child;
 pub mod options;
 mod settings;
@@ -15,7 +15,6 @@ use std::{
     time::Instant,
 };
 
-pub use checked::checked;
 pub use child::run as run_in_child;
 pub(crate) use child::take_row;
 use files::{

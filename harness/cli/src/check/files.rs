@@ -30,7 +30,7 @@ pub(super) fn judged(arguments: &Check, file: &str) -> Result<Judged, Box<dyn Er
         FileKind::Spacecraft => {
             return packing::check::judged(&arguments.subject, arguments.template.as_deref(), &text);
         }
-        FileKind::Mission => run::checked(&arguments.subject, library.template()),
+        FileKind::Mission => run::checked::checked(&arguments.subject, library.template()),
         FileKind::Timeline => timeline::checked(file, &text).map(unwarned).map_err(Into::into),
         FileKind::Plan => momentum::checked(&arguments.subject, library).map(unwarned),
         FileKind::Leg => leg::checked(&arguments.subject, library).map(unwarned),

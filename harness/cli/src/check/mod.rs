@@ -1,7 +1,7 @@
 //! `heliotorque check`: everything that can be wrong with an FMU, found and named.
 //!
-//! What can be read is checked here: archive, description, exported symbols. What has to be run is run as probes,
-//! each in a process of its own, so that an FMU that crashes or hangs is a finding and not the end.
+//! Archive, description and exported symbols are read here. Probes run in a process of their own each, so that an FMU that crashes or hangs
+//! is a finding and not the end.
 
 mod files;
 mod options;

@@ -91,7 +91,7 @@ impl<'a> Report<'a> {
     /// One JSON object.
     ///
     /// # Errors
-    /// None is known.
+    /// Errors of the serializer.
     pub fn json(&self) -> serde_json::Result<String> {
         let [passed, skipped, warnings, failed] = self.counts();
         let findings = self.found.iter().map(|(section, it)| JsonFinding {

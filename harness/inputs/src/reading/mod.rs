@@ -1,10 +1,10 @@
 //! Reading of the TOML files that people write: one table of keys a format, each key with a type that reads, judges and describes it.
 
-pub mod at;
-pub mod paths;
-pub mod quantities;
+mod at;
+mod paths;
+pub(crate) mod quantities;
 pub(crate) mod tables;
-pub mod written;
+mod written;
 
 use std::{
     ops::{Deref, DerefMut},
@@ -16,10 +16,11 @@ use physics::toml::{Checker, Document, FileError, Place};
 use serde::de::DeserializeOwned;
 
 use crate::kind::FileKind;
-pub use at::{At, Named};
-pub use paths::{InputFile, OutputPath, ShippedFile};
+pub use at::At;
+pub(crate) use at::Named;
+pub(crate) use paths::{InputFile, OutputPath, ShippedFile};
 pub(crate) use tables::{Checked, tables, words};
-pub use written::Written;
+pub(crate) use written::Written;
 
 /// Values of a file with its path and its text.
 #[derive(Clone, Debug)]
