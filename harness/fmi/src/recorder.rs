@@ -30,6 +30,7 @@ pub struct Row<'a> {
     /// Time in s.
     pub time_s: f64,
     /// Reals, in their units.
+    #[serde(with = "reals")]
     pub reals: Cow<'a, [f64]>,
     /// Integers and Enumerations.
     pub integers: Cow<'a, [i32]>,
@@ -37,6 +38,27 @@ pub struct Row<'a> {
     pub booleans: Cow<'a, [i32]>,
     /// Strings.
     pub texts: Cow<'a, [String]>,
+}
+
+/// Reals in a frame: their bytes, which are copied at once.
+mod reals {
+    use std::borrow::Cow;
+
+    use serde::{Deserialize, Deserializer, Serializer, de::Error};
+
+    pub(super) fn serialize<S: Serializer>(reals: &Cow<'_, [f64]>, to: S) -> Result<S::Ok, S::Error> {
+        let mut bytes = vec![0; size_of_val(&**reals)];
+        let (places, _) = bytes.as_chunks_mut();
+        places.iter_mut().zip(&**reals).for_each(|(place, real)| *place = real.to_le_bytes());
+        to.serialize_bytes(&bytes)
+    }
+
+    pub(super) fn deserialize<'de, 'a, D: Deserializer<'de>>(from: D) -> Result<Cow<'a, [f64]>, D::Error> {
+        match <&[u8]>::deserialize(from)?.as_chunks() {
+            (reals, []) => Ok(reals.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect()),
+            (_, rest) => Err(Error::invalid_length(rest.len(), &"whole Reals")),
+        }
+    }
 }
 
 impl Row<'_> {

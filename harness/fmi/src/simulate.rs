@@ -1,7 +1,5 @@
 //! Runs an FMU from start to stop and records it.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use model_description::call_table::Condition;
 use model_description::{Causality, Description, Initial, ScalarVariable, Variability, rules};
 
@@ -45,10 +43,8 @@ pub struct Options<'a> {
     pub watcher: Option<&'a mut dyn Watcher>,
     /// How to instantiate.
     pub instance: InstanceOptions,
-    /// Called with the time in s after every step.
-    pub progress: Option<&'a mut dyn FnMut(f64)>,
-    /// Once true, the run ends after the step under way.
-    pub cancel: Option<&'a AtomicBool>,
+    /// Called with the time in s after every step; returns whether the run goes on.
+    pub progress: Option<&'a mut dyn FnMut(f64) -> bool>,
 }
 
 /// Times whose distance is a smaller part of a step than this are one.
@@ -225,12 +221,9 @@ fn run_steps(
             }
             return Err(error);
         }
-        let cancelled = options.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed));
+        let cancelled = options.progress.as_mut().is_some_and(|goes_on| !goes_on(end_s));
         if cuts.is_none() && (recorded.contain(k + 1) || cancelled) {
             record(instance, end_s)?;
-        }
-        if let Some(progress) = options.progress.as_mut() {
-            progress(end_s);
         }
         if cancelled && k + 1 < steps {
             return Ok(Ended::Cancelled);

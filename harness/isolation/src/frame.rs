@@ -6,6 +6,8 @@ use files::outcome::Answer;
 use fmi::{Ended, Row, conformance::Finding};
 use serde::{Deserialize, Serialize};
 
+/// The only argument of a child process.
+pub const CHILD: &str = "in-child";
 /// Fault of a frame that was not requested.
 pub const NOT_REQUESTED: &str = "it sent what was not requested";
 
@@ -79,14 +81,14 @@ pub enum Frame<'a> {
     Message(i32, #[serde(borrow)] Option<&'a str>, &'a str),
     /// Finding of a probe.
     Finding(Finding),
-    /// A run of a campaign begins; whether its instance was reset for it.
-    Begun(u64, bool),
-    /// A run of a campaign is over: number of its status, kept numbers, reason.
-    Over(u8, Cow<'a, [f64]>, Cow<'a, str>),
-    /// A simulation is over.
+    /// Number of a run of a campaign that starts; whether its instance was reset for it.
+    RunStarted(u64, bool),
+    /// End of that run: number of its status, kept numbers, reason.
+    RunEnded(u8, Cow<'a, [f64]>, Cow<'a, str>),
+    /// End of a simulation.
     Ended(Ended),
-    /// The task is done.
+    /// End of the task.
     Done(Answer),
-    /// The task failed.
+    /// Failure of the task.
     Failed(Cow<'a, str>),
 }

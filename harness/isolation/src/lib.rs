@@ -17,15 +17,12 @@ mod supervisor;
 mod system;
 
 pub use channel::{Link, attach};
-pub use frame::{Frame, NOT_REQUESTED, Request, Runs};
+pub use frame::{CHILD, Frame, NOT_REQUESTED, Request, Runs};
 pub use limits::{ResourceLimits, SMALL};
 pub use printed::Shown;
-pub use relayed::{Relayed, is_child};
+pub use relayed::Relayed;
 pub use supervisor::{Bounds, ChildProcess, EndReason, Supervised};
 pub use system::end_all;
-
-/// The only argument of a child process.
-pub const CHILD: &str = "in-child";
 
 /// Limits of each of `processes` simulations at a time, by the memory that is available now.
 pub fn large(processes: u64) -> ResourceLimits {

@@ -12,15 +12,15 @@ pub struct ResourceLimits {
 /// For inspecting an FMU and short simulations.
 pub const SMALL: ResourceLimits = ResourceLimits { memory: Some(4 << 30), files: Some(1024) };
 /// Memory that simulations of any length may take, in bytes: unbounded allocation is stopped before the host runs out.
-const MOST: u64 = 16 << 30;
+const MAX_BYTES: u64 = 16 << 30;
 /// Memory that they always may, in bytes: less holds no FMU.
-const LEAST: u64 = 256 << 20;
+const MIN_BYTES: u64 = 256 << 20;
 
-/// Limits of each of `processes` simulations at a time, of any length and of systems too: the smaller of [`MOST`] and half of the
+/// Limits of each of `processes` simulations at a time, of any length and of systems too: the smaller of [`MAX_BYTES`] and half of the
 /// available memory, over the processes.
 pub(super) fn large(processes: u64, available_bytes: Option<u64>) -> ResourceLimits {
-    let memory = available_bytes.map_or(MOST, |bytes| MOST.min(bytes / 2)) / processes.max(1);
-    ResourceLimits { memory: Some(memory.max(LEAST)), files: None }
+    let memory = available_bytes.map_or(MAX_BYTES, |bytes| MAX_BYTES.min(bytes / 2)) / processes.max(1);
+    ResourceLimits { memory: Some(memory.max(MIN_BYTES)), files: None }
 }
 
 #[cfg(test)]

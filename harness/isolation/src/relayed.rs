@@ -2,10 +2,7 @@
 
 use std::{
     io::{self, Write},
-    sync::{
-        Arc, Mutex, PoisonError,
-        atomic::{AtomicBool, Ordering},
-    },
+    sync::{Arc, Mutex, PoisonError},
 };
 
 use files::{
@@ -24,14 +21,6 @@ use super::{
 
 /// Bytes of the standard output in one frame.
 const AT_ONCE: usize = 1 << 20;
-
-/// Whether this process is such a child.
-static IS_CHILD: AtomicBool = AtomicBool::new(false);
-
-/// Whether this process was started to load libraries.
-pub fn is_child() -> bool {
-    IS_CHILD.load(Ordering::Relaxed)
-}
 
 /// A command and what its process may take.
 pub struct Relayed {
@@ -114,7 +103,6 @@ impl Link {
     pub fn relay(self, command: impl FnOnce() -> Outcome) -> Outcome {
         let screen = self.screen;
         let link = Arc::new(Mutex::new(self));
-        IS_CHILD.store(true, Ordering::Relaxed);
         terminal::relay_to(Box::new(ToParent(Arc::clone(&link))), screen);
         let last = command().map_or_else(|error| failed(error.as_ref()), Frame::Done);
         link.lock().unwrap_or_else(PoisonError::into_inner).send(&last)?;

@@ -10,9 +10,8 @@ use std::{
 use fmi::{CallRecord, RecordedCalls};
 
 use super::{
-    CHILD,
     channel::{Inbox, RING_WORDS},
-    frame::{Frame, Request},
+    frame::{CHILD, Frame, Request},
     limits::ResourceLimits,
     printed::Printed,
     system,

@@ -1,7 +1,5 @@
 //! Runs a system from start to stop and hands the recorded rows on.
 
-use std::sync::atomic::Ordering;
-
 use fmi::{Ended, Error, InputTable, LogMessage, Options, Rows, Value};
 
 use crate::{
@@ -51,12 +49,9 @@ pub fn simulate_into(
             }
             return Ok((Ended::ByItself, running.messages()));
         }
-        let cancelled = options.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed));
+        let cancelled = options.progress.as_mut().is_some_and(|goes_on| !goes_on(end_s));
         if recorded.contain(k + 1) || cancelled {
             record(system, &mut recorder, &mut running, end_s, rows)?;
-        }
-        if let Some(progress) = options.progress.as_mut() {
-            progress(end_s);
         }
         if cancelled && k + 1 < steps {
             return Ok((Ended::Cancelled, running.messages()));

@@ -15,7 +15,7 @@ use comfy_table::{ContentArrangement, TableComponent, presets};
 use indicatif::ProgressStyle;
 
 pub use indicatif::ProgressBar;
-pub use relay::{Output, Relay, Screen, relay_to, screen, show_bar};
+pub use relay::{Output, Relay, Screen, is_relayed, relay_to, screen, show_bar};
 
 /// Prints a text; a reader that went away (as `head` does) is no error.
 pub fn print(text: &str) -> io::Result<()> {

@@ -28,7 +28,7 @@ pub trait Relay: Send + Sync {
 }
 
 /// Columns of the terminals that show output and notes; `None` where there is no terminal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Screen {
     /// Width of the standard output.
     pub output_columns: Option<u16>,
@@ -52,6 +52,11 @@ pub fn screen() -> Screen {
     stderr.use_stderr();
     let note_columns = io::stderr().is_terminal().then(|| stderr.width()).flatten();
     Screen { output_columns: Table::new().width(), note_columns }
+}
+
+/// Whether a parent shows what this process shows.
+pub fn is_relayed() -> bool {
+    PARENT.get().is_some()
 }
 
 /// The relay, in a child.

@@ -1,6 +1,6 @@
 //! `heliotorque check mission.toml`: whether a mission can be simulated; its first step is simulated.
 
-use std::{path::Path, sync::atomic::AtomicBool};
+use std::path::Path;
 
 use fmi::Collector;
 use inputs::epoch;
@@ -20,10 +20,9 @@ pub fn checked(
     let Prepared { simulated, subject, settings, .. } = &Prepared::new(&run)?;
     let Settings { times, requested, limits, sets, positions, inputs, .. } = settings;
     let mut rows = Collector::new(subject.description(), positions);
-    // Ended after the first step.
-    let cancel = AtomicBool::new(true);
+    let mut end_after_first_step = |_| false;
     let (_, messages) =
-        settings.simulate_into(subject, &simulated.run, (&mut |_| {}, &cancel, None), &mut rows)?;
+        settings.simulate_into(subject, &simulated.run, (&mut end_after_first_step, None), &mut rows)?;
     let short = terminal::short;
     let begin = simulated.mission.as_ref().and_then(|mission| epoch::date(mission.epoch_s()?.it));
     let begin = begin.unwrap_or_else(|| format!("{} s", short(times.start_s)));

@@ -1,11 +1,6 @@
 //! A simulation in a process of its own: the child sends rows, the parent takes them as far as they are expected.
 
-use std::{
-    cell::RefCell,
-    fs::File,
-    path::Path,
-    sync::atomic::{AtomicBool, Ordering},
-};
+use std::{cell::RefCell, fs::File, path::Path, sync::atomic::Ordering};
 
 use files::outcome::Outcome;
 use fmi::{Collector, Ended, Error, LogMessage, Recording, Row, Rows, Status, Watcher};
@@ -145,16 +140,13 @@ pub fn run(link: Link, folder: &Path, input_copy: Option<&Path>, run: &Run) -> O
             fmi::log_calls(File::options().append(true).open(path)?);
         }
         let cancel_word = link.cancel_word();
-        let cancel = AtomicBool::new(false);
-        let mut check_cancel =
-            |_: f64| cancel.store(cancel_word.load(Ordering::Relaxed) != 0, Ordering::Relaxed);
-        check_cancel(0.0);
+        let mut goes_on = |_: f64| cancel_word.load(Ordering::Relaxed) == 0;
         let mut visits = match &subject {
             Subject::Fmu(fmu) => Visits::new(fmu, settings.times.stop_s, settings.given(fmu.description())),
             Subject::System(_) => None,
         };
         let watcher = visits.as_mut().map(|visits| visits as &mut dyn Watcher);
-        let watched = (&mut check_cancel as &mut dyn FnMut(f64), &cancel, watcher);
+        let watched = (&mut goes_on as &mut dyn FnMut(f64) -> bool, watcher);
         let ran = settings.simulate_into(&subject, &simulated.run, watched, &mut RowSender(link));
         let (ended, messages) = ran?;
         for LogMessage { status, category, text } in &messages {

@@ -32,7 +32,7 @@ use packing::{
 pub use settings::Settings;
 pub use simulated::{Simulated, assemble_into};
 pub use subject::Subject;
-use tables::output::{self, Known, LimitChecks, Origin, Outputs};
+use tables::output::{self, DisplayContext, LimitChecks, Origin, Outputs};
 
 /// Warnings of an FMU that are shown without `--log`.
 const MAX_WARNINGS: usize = 20;
@@ -94,7 +94,7 @@ impl Prepared {
         let settings = Settings::new(&subject, &simulated, input_copy.as_deref())?;
         subject.check_libraries()?;
         let described = subject.description();
-        let known = Known::new(&subject.parts(), described, &settings.sets, &settings.limits)
+        let context = DisplayContext::new(&subject.parts(), described, &settings.sets, &settings.limits)
             .dated(epoch::zero_epoch_s(described, &settings.sets, settings.times.start_s));
         let collector = Collector::new(described, &settings.positions);
         let origin = Origin {
@@ -110,7 +110,7 @@ impl Prepared {
         let table = settings.requested.table.as_ref().filter(|_| has_visits);
         let visits = table.map(|table| output::open_beside(table, ("visits", visits::HEADER), &reads));
         let visits = visits.transpose()?.flatten();
-        let outputs = Outputs::open(&settings.requested, collector.recording(), &known, (&origin, &reads))?;
+        let outputs = Outputs::open(&settings.requested, collector.recording(), &context, (&origin, &reads))?;
         let points = RecordedPoints::new(&settings.times, simulated.run.every)?.count();
         collector.fits(points)?;
         let _scratch = [packed, copy];

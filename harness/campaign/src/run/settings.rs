@@ -1,6 +1,6 @@
 //! Arguments of `heliotorque run` resolved for an FMU or a system.
 
-use std::{path::Path, sync::atomic::AtomicBool};
+use std::path::Path;
 
 use files::Scratch;
 use fmi::{Ended, Fmu, InputTable, InstanceOptions, LogMessage, Options, Rows, Times, Watcher};
@@ -142,12 +142,12 @@ impl Settings {
         self.sets.iter().map(|(name, _)| name).chain(inputs)
     }
 
-    /// Runs it in this process, telling the time in s after every step, until a word says that it shall end; an FMU is watched.
+    /// Runs it in this process as long as `progress` answers so, which is given the time in s after every step; an FMU is watched.
     pub fn simulate_into<'a>(
         &'a self,
         subject: &Subject,
         arguments: &Run,
-        (progress, cancel, watcher): (&'a mut dyn FnMut(f64), &'a AtomicBool, Option<&'a mut dyn Watcher>),
+        (progress, watcher): (&'a mut dyn FnMut(f64) -> bool, Option<&'a mut dyn Watcher>),
         rows: &mut dyn Rows,
     ) -> Result<(Ended, Vec<LogMessage>), fmi::Error> {
         let options = Options {
@@ -162,7 +162,6 @@ impl Settings {
             record: Some(self.positions.clone()),
             instance: InstanceOptions { logging: arguments.log, ..InstanceOptions::default() },
             progress: Some(progress),
-            cancel: Some(cancel),
             watcher,
             ..Options::default()
         };

@@ -78,7 +78,7 @@ impl Simulated {
         let failed = |error: std::io::Error| format!("{}: {error}", std::env::temp_dir().display());
         let folder = Scratch::new().map_err(failed)?;
         let template = self.run.template.as_deref();
-        if isolation::is_child() {
+        if terminal::is_relayed() {
             assemble_files(mission, template, folder.path())?;
             return Ok(folder);
         }

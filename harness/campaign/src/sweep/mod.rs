@@ -1,11 +1,11 @@
 //! `heliotorque sweep`: many runs of a mission or an FMU whose values vary, and what is kept of each.
 
 mod histories;
-mod kept;
 pub mod options;
 mod origin;
 mod outputs;
 mod pool;
+mod recorded_columns;
 mod repeated;
 mod resolved;
 mod series;

@@ -7,7 +7,7 @@ use inputs::{
     epoch::{self, is_epoch},
 };
 use model_description::Description;
-use tables::output::EPOCH_KEY;
+use tables::output::{EPOCH_KEY, set_identity, set_times};
 use toml_edit::{DocumentMut, Item, Table};
 use uuid::Uuid;
 
@@ -116,22 +116,15 @@ pub(super) fn to_toml(
     set("program", toml_edit::value(concat!("heliotorque", " ", env!("CARGO_PKG_VERSION"))));
     set("campaign", toml_edit::value(file.file.display().to_string()));
     set("simulated", toml_edit::value(file.simulated().display().to_string()));
-    let times = campaign.settings.times;
-    for (key, time_s) in [("start_s", times.start_s), ("stop_s", times.stop_s), ("step_s", times.step_s)] {
-        set(key, toml_edit::value(time_s));
-    }
+    set_times(&mut document, campaign.settings.times);
+    let mut set = |key: &str, item: Item| drop(document.insert(key, item));
     let whole = |number: u64| toml_edit::value(i64::try_from(number).unwrap_or(i64::MAX));
     set("first_run", whole(runs.start));
     set("runs", whole(runs.end - runs.start));
     set("seed", whole(file.seed));
     set("sampling", toml_edit::value(campaign.design.sampling().key()));
     let mut fmu = Table::new();
-    let mut set_fmu = |key: &str, text: &str| drop(fmu.insert(key, toml_edit::value(text)));
-    set_fmu("name", &described.model_name);
-    set_fmu("guid", &described.guid);
-    for (key, text) in [("version", &described.version), ("made_by", &described.generation_tool)] {
-        text.iter().for_each(|text| set_fmu(key, text));
-    }
+    set_identity(&mut fmu, described);
     // Runs that start at different epochs have no common dates.
     let varied = campaign.design.varied();
     let is_varied = |name: &str| varied.iter().any(|it| it.name == name);

@@ -172,7 +172,7 @@ impl Inbox<'_> {
         }
         let Campaign { kept, .. } = self.pool.campaign;
         match (frame, self.current) {
-            (Frame::Begun(run, was_reset), None) if run == self.next => {
+            (Frame::RunStarted(run, was_reset), None) if run == self.next => {
                 self.current = Some(run);
                 self.was_reset = was_reset;
                 self.next += self.pool.workers;
@@ -184,7 +184,7 @@ impl Inbox<'_> {
                 self.points.extend_from_slice(&numbers);
             }
             (Frame::Row(row), Some(_)) => take_row(&row, self.collector.as_mut().ok_or(NOT_REQUESTED)?)?,
-            (Frame::Over(status, numbers, reason), Some(run)) if numbers.len() == kept.count() => {
+            (Frame::RunEnded(status, numbers, reason), Some(run)) if numbers.len() == kept.count() => {
                 let status = *RunStatus::ALL.get(usize::from(status)).ok_or(NOT_REQUESTED)?;
                 let (numbers, reason) = (numbers.into_owned(), reason.into_owned());
                 self.end(RunResult { run, status, reason, numbers, was_reset: self.was_reset })?;

@@ -12,7 +12,7 @@ use isolation::interrupt;
 use super::pool::{Attempt, Pool, RunResult};
 
 /// Runs that are repeated at most, one a process.
-const MOST: u64 = 4;
+const MAX_REPEATED: u64 = 4;
 
 /// Runs whose kept results are compared with a simulation in a process of its own.
 pub(super) struct Sample {
@@ -25,7 +25,7 @@ impl Sample {
     pub(super) fn new(pool: &Pool<'_>) -> Self {
         let runs = &pool.runs;
         let count = runs.end - runs.start;
-        let sampled = pool.workers.min(MOST).min(count);
+        let sampled = pool.workers.min(MAX_REPEATED).min(count);
         Self {
             runs: (1..=sampled).map(|k| runs.start + count * k / sampled - 1).collect(),
             results: Vec::new(),

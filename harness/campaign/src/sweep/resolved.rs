@@ -15,7 +15,7 @@ use inputs::{
 };
 use model_description::{BaseType, Description, ScalarVariable, value};
 
-use super::kept::Kept;
+use super::recorded_columns::RecordedColumns;
 use crate::{
     Correlation, Design, DesignError, Distribution, Sampling, Varied,
     run::{Run, Settings, Simulated, Subject},
@@ -35,7 +35,7 @@ pub(super) struct Campaign {
     /// Positions of the variables that vary.
     pub varied: Vec<usize>,
     /// Recorded variables.
-    pub kept: Kept,
+    pub kept: RecordedColumns,
     /// Points at which percentiles have a row.
     pub percentile_points: RecordedPoints,
     /// Points at which histories have one.
@@ -75,7 +75,7 @@ impl Campaign {
         let names = varied.iter().map(|it| reader.position(&it.name));
         let positions: Vec<usize> = names.collect::<Option<_>>().unwrap_or_default();
         let design = reader.design(varied, sampling)?;
-        let kept = Kept::new(file, described, (&simulated, &settings))?;
+        let kept = RecordedColumns::new(file, described, (&simulated, &settings))?;
         let points = |every_s: Option<f64>| RecordedPoints::new(&settings.times, every_s);
         let percentile_points = points(file.keep.as_ref().and_then(|keep| keep.every_s))?;
         let history_points = points(simulated.run.every)?;

@@ -1,10 +1,6 @@
 //! A process that simulates every n-th run of a campaign, with one instance that is reset between runs.
 
-use std::{
-    error,
-    path::Path,
-    sync::atomic::{AtomicBool, Ordering},
-};
+use std::{error, path::Path, sync::atomic::Ordering};
 
 use files::outcome::{Answer, Outcome};
 use fmi::{Ended, Error, Fmu, Instance, InstanceOptions, Options, Row, Rows, Status, Value};
@@ -13,7 +9,7 @@ use isolation::{Frame, Link, Runs};
 use model_description::{BaseType, Description};
 
 use super::{
-    kept::Kept,
+    recorded_columns::RecordedColumns,
     resolved::{Campaign, simulated},
 };
 use crate::{Extremes, run::Subject};
@@ -108,9 +104,7 @@ fn simulate(
     let mut sets: Vec<(String, Value)> = campaign.settings.sets.clone();
     sets.extend(campaign.sets(fmu.description(), run));
     let cancel_word = rows.link.cancel_word();
-    let cancel = AtomicBool::new(false);
-    let mut check_cancel = |_: f64| cancel.store(cancel_word.load(Ordering::Relaxed) != 0, Ordering::Relaxed);
-    check_cancel(0.0);
+    let mut goes_on = |_: f64| cancel_word.load(Ordering::Relaxed) == 0;
     let options = Options {
         start_s: Some(times.start_s),
         stop_s: Some(times.stop_s),
@@ -119,8 +113,7 @@ fn simulate(
         sets,
         inputs: campaign.settings.inputs.as_ref(),
         record: Some(campaign.kept.positions.clone()),
-        progress: Some(&mut check_cancel),
-        cancel: Some(&cancel),
+        progress: Some(&mut goes_on),
         ..Options::default()
     };
     fmi::simulate_with(instance, options, rows)
@@ -129,7 +122,7 @@ fn simulate(
 /// Takes the rows of a run and sends what is kept of them.
 struct KeptRows<'a> {
     campaign: &'a Campaign,
-    kept: &'a Kept,
+    kept: &'a RecordedColumns,
     /// Base type and place in a row of every recorded variable.
     places: Vec<(BaseType, usize)>,
     link: &'a mut Link,
@@ -176,7 +169,7 @@ impl<'a> KeptRows<'a> {
         self.finals.fill(f64::NAN);
         self.extremes.fill(Extremes::default());
         self.broken = None;
-        self.link.send(&Frame::Begun(run, was_reset))
+        self.link.send(&Frame::RunStarted(run, was_reset))
     }
 
     fn end(&mut self, ended: Ended) -> Result<(), String> {
@@ -198,7 +191,7 @@ impl<'a> KeptRows<'a> {
             let extremes = extremes.flat_map(|it| [it.min, it.max, it.largest, it.time_of_largest_s]);
             self.finals.iter().copied().chain(extremes).collect()
         };
-        self.link.send(&Frame::Over(status as u8, numbers.into(), reason.into()))
+        self.link.send(&Frame::RunEnded(status as u8, numbers.into(), reason.into()))
     }
 
     fn check_limits(&mut self, row: &Row<'_>) {

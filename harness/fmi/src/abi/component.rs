@@ -77,18 +77,22 @@ macro_rules! call {
 macro_rules! plain {
     (calls { $($name:ident $symbol:ident;)* } access { $($get:ident $get_symbol:ident $set:ident $set_symbol:ident: $type:ty;)* }) => {
         impl Component {
-            $(pub(crate) fn $name(&mut self) -> Answer {
-                call!(self.$symbol())
-            })*
-            $(pub(crate) fn $get(&mut self, references: &[u32], values: &mut [$type]) -> Answer {
-                same_length(references.len(), values.len())?;
-                call!(self.$get_symbol(references.as_ptr(), references.len(), values.as_mut_ptr()))
-            }
+            $(
+                pub(crate) fn $name(&mut self) -> Answer {
+                    call!(self.$symbol())
+                }
+            )*
+            $(
+                pub(crate) fn $get(&mut self, references: &[u32], values: &mut [$type]) -> Answer {
+                    same_length(references.len(), values.len())?;
+                    call!(self.$get_symbol(references.as_ptr(), references.len(), values.as_mut_ptr()))
+                }
 
-            pub(crate) fn $set(&mut self, references: &[u32], values: &[$type]) -> Answer {
-                same_length(references.len(), values.len())?;
-                call!(self.$set_symbol(references.as_ptr(), references.len(), values.as_ptr()))
-            })*
+                pub(crate) fn $set(&mut self, references: &[u32], values: &[$type]) -> Answer {
+                    same_length(references.len(), values.len())?;
+                    call!(self.$set_symbol(references.as_ptr(), references.len(), values.as_ptr()))
+                }
+            )*
         }
     };
 }

@@ -47,7 +47,7 @@ const FREE_WORDS: u64 = RING_WORDS as u64 / 4;
 struct Start {
     parent: u32,
     limits: ResourceLimits,
-    columns: [Option<u16>; 2],
+    screen: Screen,
     request: Request,
 }
 
@@ -76,11 +76,11 @@ fn attached() -> io::Result<(Link, Request)> {
     if words.len() != RING + RING_WORDS {
         return Err(io::Error::other("the standard input is not that of a parent"));
     }
-    let bytes: Vec<u8> =
-        words[RING..].iter().flat_map(|word| word.load(Ordering::Relaxed).to_le_bytes()).collect();
     let length = words[REQUEST].load(Ordering::Relaxed) as usize;
+    let request = words[RING..].iter().take(length.div_ceil(WORD));
+    let bytes: Vec<u8> = request.flat_map(|word| word.load(Ordering::Relaxed).to_le_bytes()).collect();
     let start = bytes.get(..length).and_then(|bytes| postcard::from_bytes(bytes).ok());
-    let Start { parent, limits, columns: [output_columns, note_columns], request } =
+    let Start { parent, limits, screen, request } =
         start.ok_or_else(|| io::Error::other("the standard input holds no request"))?;
     system::end_with_parent(parent)?;
     system::restrict(limits)?;
@@ -89,7 +89,6 @@ fn attached() -> io::Result<(Link, Request)> {
     }
     // Where no instruction of the FMU runs yet, nobody else reads the token.
     let token = words[TOKEN].swap(0, Ordering::Relaxed);
-    let screen = Screen { output_columns, note_columns };
     Ok((Link { words, token, head: 0, bytes: Vec::new(), screen }, request))
 }
 
@@ -159,9 +158,8 @@ impl Inbox {
     pub(super) fn create(request: Request, limits: ResourceLimits) -> io::Result<(std::fs::File, Self)> {
         let (file, words) = SharedWords::create(RING + RING_WORDS)?;
         let token = RandomState::new().build_hasher().finish();
-        let Screen { output_columns, note_columns } = terminal::screen();
-        let columns = [output_columns, note_columns];
-        let start = Start { parent: std::process::id(), limits, columns, request };
+        let screen = terminal::screen();
+        let start = Start { parent: std::process::id(), limits, screen, request };
         let mut bytes = postcard::to_stdvec(&start).map_err(io::Error::other)?;
         words[TOKEN].store(token, Ordering::Relaxed);
         words[REQUEST].store(bytes.len() as u64, Ordering::Relaxed);
@@ -208,8 +206,11 @@ impl Inbox {
             };
             let at = (self.tail % RING_WORDS as u64) as usize;
             let count = (whole - self.frame.len() / WORD).min(left).min(RING_WORDS - at);
-            for word in &self.words[RING + at..RING + at + count] {
-                self.frame.extend_from_slice(&word.load(Ordering::Relaxed).to_le_bytes());
+            let from = self.frame.len();
+            self.frame.resize(from + count * WORD, 0);
+            let (places, _) = self.frame[from..].as_chunks_mut();
+            for (place, word) in places.iter_mut().zip(&self.words[RING + at..]) {
+                *place = word.load(Ordering::Relaxed).to_le_bytes();
             }
             self.tail = self.tail.wrapping_add(count as u64);
             left -= count;

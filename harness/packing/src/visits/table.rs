@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use inputs::epoch;
 
-use super::Visit;
+use super::visit::Visit;
 
 /// Name of what is flown where no command of the timeline is in force.
 const NO_COMMAND: &str = "-";

@@ -2,7 +2,7 @@
 
 use std::{
     path::Path,
-    sync::{Mutex, PoisonError, atomic::AtomicBool},
+    sync::{Mutex, PoisonError},
 };
 
 use campaign::run::{Run, Settings, Simulated};
@@ -291,10 +291,7 @@ impl SimulatedMission {
         let description = self.fmu.description();
         let step_s = if self.is_in_orbit() { ORBIT_STEP_S } else { STEP_S };
         let stop_s = requested.stop_s.unwrap_or(self.stop_s);
-        let cancel = AtomicBool::new(false);
-        let mut reported = |_: f64| {
-            cancel.store(interrupt::raised(), std::sync::atomic::Ordering::Relaxed);
-        };
+        let mut goes_on = |_: f64| !interrupt::raised();
         let options = Options {
             start_s: Some(self.start_s),
             stop_s: Some(stop_s),
@@ -306,8 +303,7 @@ impl SimulatedMission {
             record: Some(selected(description, requested.outputs, fmi::select_outputs)?),
             record_at_s: requested.at_s,
             apart: description.variables.iter().position(|it| it.name == "dump.count"),
-            progress: Some(&mut reported),
-            cancel: Some(&cancel),
+            progress: Some(&mut goes_on),
             ..Options::default()
         };
         let mut instance = self.instance()?;

@@ -1,9 +1,6 @@
 //! Flights through the FMU: one without dumps for momentum by source, others by threshold and strategy for dumps.
 
-use std::{
-    sync::atomic::AtomicBool,
-    time::{Duration, Instant},
-};
+use std::time::{Duration, Instant};
 
 use fmi::{Options, Recording, Value};
 use inputs::variables::{NEVER_N_M_S, elements, numbers, selected, vectors};
@@ -150,10 +147,9 @@ fn simulated(
         // A whole number of steps between unloadings, so that rows end the windows.
         sized.every_s / (sized.every_s / longest_s).ceil()
     };
-    let cancel = AtomicBool::new(false);
-    let mut reported = |time_s: f64| {
-        cancel.store(interrupt::raised(), std::sync::atomic::Ordering::Relaxed);
+    let mut goes_on = |time_s: f64| {
         progress(time_s);
+        !interrupt::raised()
     };
     let options = Options {
         start_s: Some(sized.start_s),
@@ -163,8 +159,7 @@ fn simulated(
         inputs: sized.inputs.as_ref(),
         record: Some(record),
         apart: position("dump.count").filter(|_| counts_dumps),
-        progress: Some(&mut reported),
-        cancel: Some(&cancel),
+        progress: Some(&mut goes_on),
         ..Options::default()
     };
     Ok(fmi::simulate(&sized.fmu, options)?.recording)

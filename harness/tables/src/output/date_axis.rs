@@ -4,7 +4,7 @@ use inputs::epoch;
 use physics::{constants::DAY_S, environment::dates};
 
 /// Ticks at most, but for the ends.
-const MOST: f64 = 10.0;
+const MAX_TICKS: f64 = 10.0;
 const MONTH_S: f64 = 30.437 * DAY_S;
 /// Steps within a day, in s.
 const STEPS_S: [u32; 17] =
@@ -24,7 +24,7 @@ pub(super) struct DateAxis {
 impl DateAxis {
     /// From one epoch to another, in s past J2000 TDB; `None` before UTC, and where hardly a round time lies within.
     pub(super) fn over(first_s: f64, last_s: f64) -> Option<Self> {
-        let interval_s = (last_s - first_s) / MOST;
+        let interval_s = (last_s - first_s) / MAX_TICKS;
         let day = day_of(first_s)?;
         let step = |steps: &[u32], unit_s: f64| {
             steps.iter().copied().find(|step| f64::from(*step) * unit_s >= interval_s * (1.0 - 1e-9))

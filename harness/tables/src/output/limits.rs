@@ -4,7 +4,7 @@ use fmi::Recording;
 use inputs::{epoch, mission::Limit};
 use model_description::Description;
 
-use super::shown::Shown;
+use super::display_form::DisplayForm;
 
 /// How a limit fares.
 struct LimitCheck {
@@ -65,7 +65,7 @@ impl LimitChecks {
 
 impl LimitCheck {
     fn line(&self, described: &Description, epoch_minus_time_s: Option<f64>) -> String {
-        let shown = Shown::new(described, &self.limit.name);
+        let shown = DisplayForm::new(described, &self.limit.name);
         let number = |value: f64| shown.text(shown.value(value));
         let unit = if shown.unit.is_empty() || shown.unit == "1" {
             String::new()

@@ -2,14 +2,14 @@
 
 pub mod csv;
 pub mod date_axis;
+pub mod display_context;
+pub mod display_form;
 pub mod exporter;
 pub mod file;
-pub mod known;
 pub mod limits;
 pub mod origin;
+pub mod overwrite;
 pub mod scales;
-pub mod shown;
-pub mod standing;
 pub mod summary;
 pub mod svg;
 pub mod time_axis;
@@ -28,11 +28,11 @@ use exporter::Exporter;
 use summary::Summary;
 use svg::Svg;
 
+pub use display_context::DisplayContext;
 pub use file::OutputFile;
-pub use known::Known;
 pub use limits::LimitChecks;
-pub use origin::{EPOCH_KEY, Origin};
-pub use standing::{OutputKind, check as check_standing, open_beside};
+pub use origin::{EPOCH_KEY, Origin, set_identity, set_times};
+pub use overwrite::{OutputKind, check as check_standing, open_beside};
 pub use svg::{chart, leave_out, panel, shade_eclipses};
 pub use time_axis::TimeAxis;
 
@@ -75,13 +75,13 @@ impl Outputs {
     pub fn open(
         requested: &Requested,
         empty: &Recording,
-        known: &Known,
+        context: &DisplayContext,
         (origin, inputs): (&Origin<'_>, &[&Path]),
     ) -> Result<Self, String> {
         let Requested { table, plots, columns, is_quiet } = requested;
         let open = |file: &OutputFile, kind: OutputKind<'_>| {
             let destination = Destination::open(&file.path, file.option, inputs)?;
-            standing::check(file, &destination, kind)?;
+            overwrite::check(file, &destination, kind)?;
             Ok::<_, String>(destination)
         };
         let mut header = Vec::new();
@@ -120,7 +120,7 @@ impl Outputs {
             exporters.push(Box::new(Csv::new(csv.grow(inputs)?, *columns, beside)));
         }
         for (svg, plot) in pictures.into_iter().zip(plots) {
-            exporters.push(Box::new(Svg { file: svg, names: plot.names.clone(), known: known.clone() }));
+            exporters.push(Box::new(Svg { file: svg, names: plot.names.clone(), context: context.clone() }));
         }
         if exporters.is_empty() && !is_quiet {
             exporters.push(Box::new(Summary));

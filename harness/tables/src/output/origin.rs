@@ -7,7 +7,7 @@ use inputs::{epoch, variables};
 use model_description::{Description, value};
 use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table};
 
-use super::shown::find;
+use super::display_form::find;
 
 /// The first line.
 pub(super) const HEAD: &str =
@@ -43,10 +43,8 @@ impl Origin<'_> {
         if let Some(input) = &self.input {
             set("input", toml_edit::value(input.display().to_string()));
         }
-        let Times { start_s, stop_s, step_s } = self.times;
-        for (key, time_s) in [("start_s", start_s), ("stop_s", stop_s), ("step_s", step_s)] {
-            set(key, toml_edit::value(time_s));
-        }
+        set_times(&mut document, self.times);
+        let mut set = |key: &str, item: Item| drop(document.insert(key, item));
         set(
             "fmus",
             Item::ArrayOfTables(self.fmus.iter().map(|fmu| self.fmu(fmu)).collect::<ArrayOfTables>()),
@@ -67,15 +65,10 @@ impl Origin<'_> {
 
     fn fmu(&self, (prefix, description): &(String, &Description)) -> Table {
         let mut table = Table::new();
-        let mut set = |key: &str, text: &str| drop(table.insert(key, toml_edit::value(text)));
         if let Some(component) = prefix.strip_suffix('.') {
-            set("component", component);
+            table.insert("component", toml_edit::value(component));
         }
-        set("name", &description.model_name);
-        set("guid", &description.guid);
-        for (key, text) in [("version", &description.version), ("made_by", &description.generation_tool)] {
-            text.iter().for_each(|text| set(key, text));
-        }
+        set_identity(&mut table, description);
         let start = epoch::starts(description).next();
         let start = start.map(|it| format!("{prefix}{}", it.name));
         if let Some(epoch_s) = start.and_then(|name| variables::real(self.described, self.sets, &name)) {
@@ -128,6 +121,26 @@ impl Origin<'_> {
             column.insert("description", description.as_str().into());
         }
         column
+    }
+}
+
+/// Writes start, stop and step.
+pub fn set_times(table: &mut Table, Times { start_s, stop_s, step_s }: Times) {
+    for (key, time_s) in [("start_s", start_s), ("stop_s", stop_s), ("step_s", step_s)] {
+        table.insert(key, toml_edit::value(time_s));
+    }
+}
+
+/// Writes the name, version and origin of an FMU.
+pub fn set_identity(table: &mut Table, description: &Description) {
+    let Description { model_name, guid, version, generation_tool, .. } = description;
+    for (key, text) in [
+        ("name", Some(model_name)),
+        ("guid", Some(guid)),
+        ("version", version.as_ref()),
+        ("made_by", generation_tool.as_ref()),
+    ] {
+        text.iter().for_each(|text| drop(table.insert(key, toml_edit::value(text.as_str()))));
     }
 }
 

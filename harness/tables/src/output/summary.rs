@@ -1,4 +1,4 @@
-//! Summary of a run on the terminal: least, greatest and last value of everything recorded, a vector in a row.
+//! Summary of a run on the terminal: min, max and final value of everything recorded, a vector in a row.
 
 use std::error::Error;
 
@@ -7,9 +7,9 @@ use inputs::variables::vector;
 use model_description::Description;
 
 use super::{
+    display_form::DisplayForm,
     exporter::Exporter,
     scales::{ROUNDING, Scales},
-    shown::Shown,
 };
 
 /// Rows of the table beside files at most.
@@ -57,16 +57,17 @@ fn rows<'a>(described: &'a Description, recording: &'a Recording) -> Vec<Summary
     for group in columns.chunk_by(|one, other| vector(one.0).is_some() && vector(one.0) == vector(other.0)) {
         let Some((first, _)) = group.first() else { continue };
         let name = vector(first).filter(|_| group.len() > 1).unwrap_or(first);
-        let unit = Shown::new(described, first).unit;
+        let unit = DisplayForm::new(described, first).unit;
         let size = scales.size(first);
-        let components = group.iter().map(|(name, column)| texts(&Shown::new(described, name), column, size));
+        let components =
+            group.iter().map(|(name, column)| texts(&DisplayForm::new(described, name), column, size));
         rows.push(SummaryRow { name, unit, components: components.collect() });
     }
     rows
 }
 
 /// Min, max and final value.
-fn texts(shown: &Shown<'_>, column: &Column, size: f64) -> [String; 3] {
+fn texts(shown: &DisplayForm<'_>, column: &Column, size: f64) -> [String; 3] {
     if let Column::Text(texts) = column {
         return [String::new(), String::new(), texts.last().cloned().unwrap_or_default()];
     }

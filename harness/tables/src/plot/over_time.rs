@@ -6,7 +6,7 @@ use drawing::{Chart, Panel, Series};
 use fmi::Column;
 
 use crate::{
-    output::{Known, TimeAxis, chart, leave_out, panel, shade_eclipses},
+    output::{DisplayContext, TimeAxis, chart, leave_out, panel, shade_eclipses},
     table::{Described, Sidecar, Table},
 };
 
@@ -17,7 +17,7 @@ use crate::{
 pub fn single(table: &Table, sidecar: &Sidecar, patterns: &[String]) -> Result<Chart, String> {
     let names = table.selected(patterns)?;
     let Described { description, recording } = Described::new(table, sidecar);
-    let known = Known::default().dated(sidecar.zero_epoch_s);
+    let known = DisplayContext::default().dated(sidecar.zero_epoch_s);
     let (mut chart, seconds) = chart(&description, &recording.only(&names), &known, "--names");
     shade_eclipses(&mut chart, (&description, &recording), seconds);
     Ok(chart)

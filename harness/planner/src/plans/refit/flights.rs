@@ -123,7 +123,10 @@ impl Flights for RefitMission {
         let names: Vec<String> = MOMENTUM.iter().chain(&[DUMPS]).map(|name| (*name).to_owned()).collect();
         let last_s = times_s.last().copied().unwrap_or(self.stop_s);
         let before_s = self.simulated_s.get();
-        let mut reported = |time_s: f64| self.bar.set_position((before_s + time_s - self.start_s) as u64);
+        let mut reported = |time_s: f64| {
+            self.bar.set_position((before_s + time_s - self.start_s) as u64);
+            true
+        };
         let options = Options {
             start_s: Some(self.start_s),
             stop_s: Some(last_s),

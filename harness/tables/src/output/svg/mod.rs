@@ -12,10 +12,10 @@ use fmi::{Column, Recording};
 use model_description::{Causality, Description, ScalarVariable, VariableRole, value};
 
 use super::{
+    display_context::DisplayContext,
+    display_form::ANGLE_UNIT,
     exporter::Exporter,
-    known::Known,
     scales::{ROUNDING, Scales, group},
-    shown::ANGLE_UNIT,
     time_axis::TimeAxis,
 };
 
@@ -40,14 +40,14 @@ pub(super) struct Svg {
     /// The variables that it shows; `None`: everything recorded.
     pub names: Option<Vec<String>>,
     /// Names and bounds of the variables.
-    pub known: Known,
+    pub context: DisplayContext,
 }
 
 impl Svg {
     fn draw(&self, described: &Description, recording: &Recording) -> Result<String, Box<dyn Error>> {
         let only = self.names.as_ref().map(|names| recording.only(names));
         let recorded = only.as_ref().unwrap_or(recording);
-        let (mut chart, seconds) = chart(described, recorded, &self.known, "--record");
+        let (mut chart, seconds) = chart(described, recorded, &self.context, "--record");
         shade_eclipses(&mut chart, (described, recording), seconds);
         Ok(drawing::svg(&[&chart])?)
     }
@@ -90,11 +90,18 @@ impl Exporter for Svg {
 }
 
 /// The chart of a recording, and how many seconds a unit of its horizontal axis has; `option` is what chooses its variables.
-pub fn chart(described: &Description, recording: &Recording, known: &Known, option: &str) -> (Chart, f64) {
+pub fn chart(
+    described: &Description,
+    recording: &Recording,
+    context: &DisplayContext,
+    option: &str,
+) -> (Chart, f64) {
     let ends_s = recording.times_s.first().zip(recording.times_s.last());
-    let axis =
-        TimeAxis::over(ends_s.map_or([0.0; 2], |(first_s, last_s)| [*first_s, *last_s]), known.zero_epoch_s);
-    let mut groups = groups(described, recording, known, axis.seconds);
+    let axis = TimeAxis::over(
+        ends_s.map_or([0.0; 2], |(first_s, last_s)| [*first_s, *last_s]),
+        context.zero_epoch_s,
+    );
+    let mut groups = groups(described, recording, context, axis.seconds);
     let constant = leave_out_constants(&mut groups);
     if !constant.is_empty() {
         terminal::note(&format!("constant, so not drawn: {}", constant.join(", ")));
@@ -108,7 +115,7 @@ pub fn chart(described: &Description, recording: &Recording, known: &Known, opti
         groups.truncate(PANELS);
     }
     let vectors = groups.iter().filter(|group| group.is_vector()).count();
-    let panels = groups.into_iter().map(|group| group.labelled(vectors > 1, known)).collect();
+    let panels = groups.into_iter().map(|group| group.labelled(vectors > 1, context)).collect();
     let legend =
         if vectors > 1 { AXES[..3].iter().map(|axis| (*axis).to_owned()).collect() } else { Vec::new() };
     let TimeAxis { seconds, label, names } = axis;
@@ -122,7 +129,7 @@ pub fn panel(described: &Description, recording: &Recording, variable: &str, sec
     let of_variable = group(variable);
     let together: Vec<String> =
         recording.names.iter().filter(|name| group(name) == of_variable).cloned().collect();
-    let groups = groups(described, &recording.only(&together), &Known::default(), seconds);
+    let groups = groups(described, &recording.only(&together), &DisplayContext::default(), seconds);
     groups.into_iter().find_map(|Group { name, mut panel, .. }| {
         panel.series.retain(|series| series.label == variable);
         let unit = panel.y_label.strip_prefix(name.as_str()).unwrap_or_default();
@@ -132,7 +139,12 @@ pub fn panel(described: &Description, recording: &Recording, variable: &str, sec
 }
 
 /// Groups of variables that are drawn together, in the order of the recording.
-fn groups(described: &Description, recording: &Recording, known: &Known, seconds: f64) -> Vec<Group> {
+fn groups(
+    described: &Description,
+    recording: &Recording,
+    context: &DisplayContext,
+    seconds: f64,
+) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     // The panel of a name and a label that has room for another line.
     let mut with_room: BTreeMap<(String, String), usize> = BTreeMap::new();
@@ -163,7 +175,7 @@ fn groups(described: &Description, recording: &Recording, known: &Known, seconds
             groups.len() - 1
         });
         groups[position].name_values(described, variable, &series);
-        groups[position].add(series, known, |value| factor * value + offset);
+        groups[position].add(series, context, |value| factor * value + offset);
     }
     groups.iter_mut().for_each(Group::still);
     groups.iter_mut().for_each(|group| group.panel.names.sort_by(|a, b| a.0.total_cmp(&b.0)));
@@ -196,11 +208,11 @@ impl Group {
         Self { name, panel, bounds: Vec::new(), scale }
     }
 
-    fn add(&mut self, series: Series, known: &Known, shown: impl Fn(f64) -> f64) {
-        if let Some((what, value)) = known.bound(&series.label) {
+    fn add(&mut self, series: Series, context: &DisplayContext, shown: impl Fn(f64) -> f64) {
+        if let Some((what, value)) = context.bound(&series.label) {
             self.bounds.extend([-value, value].map(|value| (what.to_owned(), shown(value))));
         }
-        self.panel.marks.extend(known.limits(&series.label).iter().map(|value| shown(*value)));
+        self.panel.marks.extend(context.limits(&series.label).iter().map(|value| shown(*value)));
         self.panel.is_whole &= series.mark == Mark::Steps;
         self.panel.series.push(series);
     }
@@ -210,7 +222,7 @@ impl Group {
         for item in variable.map_or(&[][..], |variable| value::items(described, variable)) {
             let value = f64::from(item.value);
             let is_taken = series.points.iter().any(|(_, taken)| *taken == value);
-            if is_taken && self.panel.names.iter().all(|(known, _)| *known != value) {
+            if is_taken && self.panel.names.iter().all(|(named, _)| *named != value) {
                 self.panel.names.push((value, item.name.clone()));
             }
         }
@@ -253,7 +265,7 @@ impl Group {
     }
 
     /// The panel with its lines named, and the bounds that are near them.
-    fn labelled(mut self, is_shared: bool, known: &Known) -> Panel {
+    fn labelled(mut self, is_shared: bool, context: &DisplayContext) -> Panel {
         let (low, high) = range(self.values());
         let reach = (high - low).max(low.abs()).max(high.abs());
         let is_near = |mark: &f64| *mark > low - reach && *mark < high + reach;
@@ -280,7 +292,7 @@ impl Group {
             } else if let Some(axis) = axis {
                 (*axis).to_owned()
             } else {
-                known.name(&series.label).map_or_else(|| series.label.clone(), str::to_owned)
+                context.name(&series.label).map_or_else(|| series.label.clone(), str::to_owned)
             };
         }
         self.panel

@@ -19,7 +19,7 @@ const SHIP: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 </fmiModelDescription>"#;
 
 /// The chart of a recording of these columns at 0 s, 1 s and so on.
-fn drawn_chart(columns: &[(&str, Column)], known: &Known) -> Chart {
+fn drawn_chart(columns: &[(&str, Column)], context: &DisplayContext) -> Chart {
     let description = model_description::parse(SHIP.as_bytes()).unwrap().description;
     let rows = columns.first().map_or(0, |(_, column)| column.numbers().len());
     let recording = Recording {
@@ -28,7 +28,7 @@ fn drawn_chart(columns: &[(&str, Column)], known: &Known) -> Chart {
         units: vec![String::new(); columns.len()],
         columns: columns.iter().map(|(_, column)| column.clone()).collect(),
     };
-    chart(&description, &recording, known, "--record").0
+    chart(&description, &recording, context, "--record").0
 }
 
 /// The labels of each panel of a recording of two points.
@@ -36,7 +36,7 @@ fn panels(columns: &[(&str, f64)]) -> Vec<Vec<String>> {
     let columns: Vec<_> =
         columns.iter().map(|(name, last)| (*name, Column::Real(vec![0.0, *last]))).collect();
     let labels = |panel: Panel| panel.series.into_iter().map(|series| series.label).collect();
-    drawn_chart(&columns, &Known::default()).panels.into_iter().map(labels).collect()
+    drawn_chart(&columns, &DisplayContext::default()).panels.into_iter().map(labels).collect()
 }
 
 #[test]
@@ -44,7 +44,7 @@ fn the_components_of_vectors_are_named_once_beside_the_title() {
     let real = |last: f64| Column::Real(vec![0.0, last]);
     let names = ["torque[1]", "torque[2]", "torque[3]", "force[1]", "force[2]", "force[3]", "q[4]", "lone"];
     let columns: Vec<_> = names.iter().map(|name| (*name, real(1.0))).collect();
-    let chart = drawn_chart(&columns, &Known::default());
+    let chart = drawn_chart(&columns, &DisplayContext::default());
     assert_eq!(chart.legend, ["x", "y", "z"]);
     let labels: Vec<Vec<&str>> = chart
         .panels
@@ -52,7 +52,7 @@ fn the_components_of_vectors_are_named_once_beside_the_title() {
         .map(|panel| panel.series.iter().map(|series| series.label.as_str()).collect())
         .collect();
     assert_eq!(labels, [vec![""; 3], vec![""; 3], vec!["w"], vec![""]]);
-    let alone = drawn_chart(&columns[..3], &Known::default());
+    let alone = drawn_chart(&columns[..3], &DisplayContext::default());
     assert!(alone.legend.is_empty());
     assert_eq!(alone.panels[0].series[2].label, "z");
 }
@@ -62,10 +62,10 @@ fn what_stays_the_same_has_no_panel() {
     let real = |values: [f64; 2]| Column::Real(values.to_vec());
     let chart = drawn_chart(
         &[("still[1]", real([2.0, 2.0])), ("moves", real([0.0, 1.0])), ("still[2]", real([3.0, 3.0]))],
-        &Known::default(),
+        &DisplayContext::default(),
     );
     assert_eq!(chart.panels.iter().map(|panel| panel.y_label.as_str()).collect::<Vec<_>>(), ["moves"]);
-    let still = drawn_chart(&[("still[1]", real([2.0, 2.0]))], &Known::default());
+    let still = drawn_chart(&[("still[1]", real([2.0, 2.0]))], &DisplayContext::default());
     assert_eq!(still.panels.len(), 1, "nothing else is there");
 }
 
@@ -73,7 +73,7 @@ fn what_stays_the_same_has_no_panel() {
 fn rounding_is_drawn_as_nothing() {
     let real = |values: [f64; 3]| Column::Real(values.to_vec());
     let labels = |columns: &[(&str, Column)]| -> Vec<String> {
-        drawn_chart(columns, &Known::default()).panels.into_iter().map(|it| it.y_label).collect()
+        drawn_chart(columns, &DisplayContext::default()).panels.into_iter().map(|it| it.y_label).collect()
     };
     let moves = || ("moves", real([0.0, 1.0, 2.0]));
     let angle = |values| ("angle", real(values));
@@ -90,7 +90,7 @@ fn rounding_is_drawn_as_nothing() {
     // Within a vector it is, and there its line is straight; so is what is drawn alone.
     let vector = [("force[1]", real([0.0, 1e-3, 2e-3])), ("force[2]", real([1e-19, -1e-19, 0.0]))];
     for columns in [&vector[..], &[angle([9e-17, -2e-17, 4e-17])]] {
-        let chart = drawn_chart(columns, &Known::default());
+        let chart = drawn_chart(columns, &DisplayContext::default());
         let last = chart.panels[0].series.last().unwrap();
         assert!(last.points.iter().all(|(_, value)| *value == 0.0), "{:?}", last.points);
     }
@@ -100,12 +100,14 @@ fn rounding_is_drawn_as_nothing() {
 fn counts_and_flags_are_staircases_on_whole_numbers() {
     let chart = drawn_chart(
         &[("count", Column::Integer(vec![0, 0, 2])), ("flag", Column::Boolean(vec![false, true, true]))],
-        &Known::default(),
+        &DisplayContext::default(),
     );
     for panel in &chart.panels {
         assert!(panel.is_whole && panel.series[0].mark == Mark::Steps, "{}", panel.y_label);
     }
-    assert!(!drawn_chart(&[("x", Column::Real(vec![0.0, 1.0]))], &Known::default()).panels[0].is_whole);
+    assert!(
+        !drawn_chart(&[("x", Column::Real(vec![0.0, 1.0]))], &DisplayContext::default()).panels[0].is_whole
+    );
 }
 
 #[test]
@@ -166,10 +168,12 @@ fn vectors_and_counted_quantities_are_groups() {
 
 #[test]
 fn enumerations_are_drawn_by_the_names_of_the_items_that_they_take() {
-    let chart = drawn_chart(&[("mode", Column::Integer(vec![4, 1, 4]))], &Known::default());
+    let chart = drawn_chart(&[("mode", Column::Integer(vec![4, 1, 4]))], &DisplayContext::default());
     assert_eq!(chart.panels[0].names, [(1.0, "nadir".to_owned()), (4.0, "safe".to_owned())]);
     assert!(
-        drawn_chart(&[("count", Column::Integer(vec![4, 1]))], &Known::default()).panels[0].names.is_empty()
+        drawn_chart(&[("count", Column::Integer(vec![4, 1]))], &DisplayContext::default()).panels[0]
+            .names
+            .is_empty()
     );
 }
 
@@ -177,8 +181,8 @@ fn enumerations_are_drawn_by_the_names_of_the_items_that_they_take() {
 fn a_flight_with_dates_has_them_on_its_axis() {
     let zero_epoch_s = physics::environment::dates::epoch_s("2011-04-06 UTC").ok();
     let columns = [("moves", Column::Real((0..=10).map(f64::from).collect()))];
-    let chart = drawn_chart(&columns, &Known::default().dated(zero_epoch_s));
+    let chart = drawn_chart(&columns, &DisplayContext::default().dated(zero_epoch_s));
     assert_eq!(chart.x_label, "UTC, from 2011-04-06");
     assert_eq!(chart.x_names[..2], [(0.0, "04-06".to_owned()), (1.0, "00:00:01".to_owned())]);
-    assert!(drawn_chart(&columns, &Known::default()).x_names.is_empty());
+    assert!(drawn_chart(&columns, &DisplayContext::default()).x_names.is_empty());
 }
