@@ -97,14 +97,14 @@ fn run_in_child() -> Outcome {
     let (link, request) = isolation::attach()?;
     match request {
         Request::Command(arguments) => link.relay(|| carry_out(parsed(&arguments)?)),
-        Request::Assemble { mission, template, into } => link.relay(|| {
+        Request::Assemble { mission, file, template, into } => link.relay(|| {
             campaign::run::assemble_into(
-                Path::new(&mission),
+                [Path::new(&mission), Path::new(&file)],
                 template.as_ref().map(Path::new),
                 Path::new(&into),
             )
         }),
-        Request::Probe { folder, name } => check::run_probe(link, Path::new(&folder), &name),
+        Request::Probe { folder, name } => isolation::probes::run_in_child(link, Path::new(&folder), &name),
         Request::Run { arguments, folder, input_copy } => {
             let Command::Run(run) = parsed(&arguments)? else { return Err("a run's request is none".into()) };
             let input_copy = input_copy.as_ref().map(Path::new);

@@ -103,7 +103,7 @@ def joined(tables, pieces, of, failed):
         if runs != [str(run) for run in range(begin, end)]:
             raise SweepError(f"{name}: found {len(runs)} rows, from run {runs[:1]} on, allowed: {end - begin}, one for each run")
         status = next(csv.reader([first.decode()])).index("status")
-        failed += [row[0] for row in rows if row[status] == "failed"]
+        failed += [row[0] for row in rows if row[status] in ("failed", "killed")]
         yield rest
 
 

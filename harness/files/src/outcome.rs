@@ -1,5 +1,7 @@
 //! Exit status of every command, and how text and files are handed over.
 
+use std::{error::Error, fmt};
+
 use crate::Destination;
 
 /// Answer of a command that came to its end, by its exit status; one that did not ends with [`TROUBLE`].
@@ -29,7 +31,7 @@ pub const STATUSES: [(&str, &str); 4] = [
 ];
 
 /// The answer of a command, or why it could not be found.
-pub type Outcome = Result<Answer, Box<dyn std::error::Error>>;
+pub type Outcome = Result<Answer, Box<dyn Error>>;
 
 impl From<bool> for Answer {
     fn from(is_so: bool) -> Self {
@@ -75,22 +77,51 @@ pub fn write_all(
     Ok(())
 }
 
-/// Prints the problems of a file and counts them; `kind` is what the file was read as.
-pub fn refused(file: &str, problems: &str, kind: &str) -> Outcome {
-    terminal::print(problems)?;
-    terminal::note(&format!("{file}: {}, judged as {kind}", problem_count(problems, file)));
-    Ok(Answer::No)
+/// Everything wrong in files, and how many problems that are.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refusal {
+    /// Problems, which begin a line each.
+    pub text: String,
+    /// Number of problems, the unlisted ones among them.
+    pub count: usize,
 }
 
-/// How many problems of a file a message tells, the unlisted ones among them: `1 problem`, `3 problems`.
-fn problem_count(message: &str, file: &str) -> String {
-    let of_line = |line: &str| -> usize {
-        let unlisted = line.strip_prefix(file).and_then(|rest| {
-            let rest = rest.strip_prefix(": ")?;
-            rest.strip_suffix(" more problems").or_else(|| rest.strip_suffix(" more problem"))
-        });
-        unlisted.and_then(|count| count.parse().ok()).unwrap_or(1)
-    };
-    let count = message.lines().filter(|line| line.starts_with(file)).map(of_line).sum::<usize>().max(1);
-    format!("{count} problem{}", if count == 1 { "" } else { "s" })
+impl Refusal {
+    /// Returns the refusal of these problems; `None` where there are none.
+    pub fn of_all(problems: &[String]) -> Option<Self> {
+        (!problems.is_empty()).then(|| Self { text: problems.join("\n"), count: problems.len() })
+    }
+
+    /// Returns the refusal that an error is, or one of a single problem; `text` is the error's with its sources.
+    pub fn new(error: &(dyn Error + 'static), text: String) -> Self {
+        error.downcast_ref().cloned().unwrap_or(Self { text, count: 1 })
+    }
+
+    /// Prints the problems and their count; `kind` is what the file was read as.
+    pub fn print(&self, file: &str, kind: &str) -> Outcome {
+        terminal::print(&self.text)?;
+        let plural = if self.count == 1 { "" } else { "s" };
+        terminal::note(&format!("{file}: {} problem{plural}, judged as {kind}", self.count));
+        Ok(Answer::No)
+    }
 }
+
+impl From<String> for Refusal {
+    fn from(text: String) -> Self {
+        Self { text, count: 1 }
+    }
+}
+
+impl From<Refusal> for String {
+    fn from(refusal: Refusal) -> Self {
+        refusal.text
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+impl Error for Refusal {}

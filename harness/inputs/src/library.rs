@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use files::outcome::Refusal;
+
 use crate::{home, mission::Mission};
 
 /// FMU of `--template`; otherwise the installed program's library, or a shipped FMU in `dist`.
@@ -25,7 +27,7 @@ impl<'a> Library<'a> {
     ///
     /// # Errors
     /// Everything wrong in the mission's file.
-    pub fn unjudged(self, simulated: &Path) -> Result<Option<String>, String> {
+    pub fn unjudged(self, simulated: &Path) -> Result<Option<String>, Refusal> {
         let has_library =
             self.template.is_some() || home::library().is_some() || home::fmu(home::DEFAULT_MODEL).is_file();
         if has_library || simulated.extension().is_none_or(|extension| extension != "toml") {

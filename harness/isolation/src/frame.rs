@@ -20,6 +20,8 @@ pub enum Request {
     Assemble {
         /// File of the mission.
         mission: OsString,
+        /// File that messages name.
+        file: OsString,
         /// FMU whose library reads the files.
         template: Option<OsString>,
         /// Folder that becomes the FMU's.

@@ -11,6 +11,7 @@ mod frame;
 pub mod interrupt;
 mod limits;
 mod printed;
+pub mod probes;
 mod relayed;
 mod supervisor;
 mod system;

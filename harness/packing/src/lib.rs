@@ -9,5 +9,6 @@ pub mod check;
 pub mod coefficients;
 pub mod instance;
 pub mod manual;
+pub mod overview;
 pub mod pointing;
 pub mod visits;

@@ -4,6 +4,7 @@
 //! [`wire`] makes one of FMUs by the names of their variables. FMUs are loaded and called through `fmi`.
 
 mod annotations;
+mod check;
 mod connectors;
 mod elements;
 mod error;
@@ -27,6 +28,7 @@ mod unread;
 mod wire;
 mod writer;
 
+pub use check::findings;
 pub use error::Error;
 pub use joint::{ConnectedVariable, Joint};
 pub use master::{FirstExchange, Master};

@@ -1,5 +1,6 @@
 //! `heliotorque run`: runs an FMU or a system in a process of its own, records, writes, draws.
 
+pub mod checked;
 mod child;
 pub mod options;
 mod settings;

@@ -13,6 +13,8 @@ pub(super) const FORMATS: [&str; 2] = ["csv", "svg"];
 pub struct Run {
     /// FMU, system or mission.
     pub fmu: PathBuf,
+    /// File that messages name in the place of a mission that was made from it.
+    pub origin: Option<PathBuf>,
     /// Start time, in s.
     pub start: Option<f64>,
     /// Stop time or date.

@@ -65,7 +65,7 @@ impl Settings {
         let of_mission = |path: &Path, option: &'static str| OutputFile {
             path: path.to_owned(),
             option,
-            home: mission.as_ref().map(|mission| mission.file.parent().unwrap_or(Path::new("")).to_owned()),
+            home: mission.as_ref().map(|mission| mission.path.parent().unwrap_or(Path::new("")).to_owned()),
         };
         let given = by_ending(&arguments.output, FORMATS)?;
         let [table, picture] = given.map(|path| path.map(|path| OutputFile::of_option(path, OPTION)));

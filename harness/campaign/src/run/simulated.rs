@@ -4,7 +4,7 @@ use std::{error::Error, path::Path};
 
 use files::{
     Scratch,
-    outcome::{Answer, Outcome},
+    outcome::{Answer, Outcome, Refusal},
 };
 use fmi::Fmu;
 use inputs::{
@@ -30,15 +30,17 @@ pub struct Simulated {
 
 impl Simulated {
     /// Reads the mission if the arguments name one.
-    pub fn new(arguments: &Run) -> Result<Self, String> {
+    pub fn new(arguments: &Run) -> Result<Self, Refusal> {
         let is_toml = |path: &Path| path.extension().is_some_and(|extension| extension == "toml");
         if !is_toml(&arguments.fmu) {
             if arguments.template.is_some() {
-                return Err("--template is for a mission (.toml): an FMU has its own library".to_owned());
+                return Err("--template is for a mission (.toml): an FMU has its own library"
+                    .to_owned()
+                    .into());
             }
             return Ok(Self { run: arguments.clone(), mission: None });
         }
-        let mission = Mission::read(&arguments.fmu)?;
+        let mission = Mission::read_as(&arguments.fmu, arguments.origin.as_ref().unwrap_or(&arguments.fmu))?;
         let mut run = arguments.clone();
         run.start = run.start.or(mission.start_s());
         run.stop = run.stop.or(mission.stop_s().map(Instant::Time));
@@ -82,8 +84,8 @@ impl Simulated {
         }
         let name = template.map_or_else(|| "the library".to_owned(), |path| path.display().to_string());
         let bounds = Bounds::of_calls(self.run.timeout.unwrap_or(PACKING_S));
-        let [mission, into] = [&mission.file, folder.path()].map(Into::into);
-        let request = Request::Assemble { mission, template: template.map(Into::into), into };
+        let [file, mission, into] = [&mission.file, &mission.path, folder.path()].map(Into::into);
+        let request = Request::Assemble { mission, file, template: template.map(Into::into), into };
         Relayed { name, bounds, limits: SMALL }.run(request)?;
         Ok(folder)
     }
@@ -95,17 +97,17 @@ impl Simulated {
     }
 }
 
-/// Puts the FMU of a mission's files together in a folder.
+/// Puts the FMU of a mission's files together in a folder; messages name the mission by `file`.
 ///
 /// # Errors
 /// Whatever the mission or the library refuses.
-pub fn assemble_into(mission: &Path, template: Option<&Path>, into: &Path) -> Outcome {
-    assemble_files(&Mission::read(mission)?, template, into)?;
+pub fn assemble_into([mission, file]: [&Path; 2], template: Option<&Path>, into: &Path) -> Outcome {
+    assemble_files(&Mission::read_as(mission, file)?, template, into)?;
     Ok(Answer::Yes)
 }
 
 fn assemble_files(mission: &Mission, template: Option<&Path>, into: &Path) -> Result<(), Box<dyn Error>> {
-    let name = identifier(&mission.file);
+    let name = identifier(&mission.path);
     let parts = Parts { name: name.as_deref(), ..Parts::default() }.with_files_of(mission)?;
     let assembled = assemble(&Source::open(template, &[])?, &parts)?;
     assembled.entries.write_below(into).map_err(|error| format!("{}: {error}", into.display()))?;

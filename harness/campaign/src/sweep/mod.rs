@@ -44,6 +44,7 @@ use resolved::Campaign;
 use series::Series;
 use started::{Counts, OPTION, Started};
 use table::RunTable;
+use worker::RunStatus;
 pub use worker::run as run_in_child;
 
 /// A campaign file in a line, after all that the command does before its first run.
@@ -276,7 +277,7 @@ fn simulate(
         for result in results {
             taken.counts.add(result.status);
             taken.sample.take(&result);
-            taken.killed.extend(result.is_killed().then_some(result.run));
+            taken.killed.extend((result.status == RunStatus::Killed).then_some(result.run));
             written = written.and_then(|()| table.take(&result));
             if written.is_err() || table.file.has_lost_reader() {
                 pool.is_over.store(true, Ordering::Relaxed);

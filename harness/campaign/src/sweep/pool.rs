@@ -21,9 +21,6 @@ use model_description::Description;
 use super::{histories::HistoryPlace, resolved::Campaign, series::Series, worker::RunStatus};
 use crate::run::take_row;
 
-/// Begins the reason of a run whose process was killed from outside, which says nothing of the run.
-pub(super) const KILLED: &str = "killed from outside";
-
 /// Result of a run.
 #[derive(Clone)]
 pub(super) struct RunResult {
@@ -35,13 +32,6 @@ pub(super) struct RunResult {
     pub numbers: Vec<f64>,
     /// Whether its instance had simulated another run and was reset.
     pub was_reset: bool,
-}
-
-impl RunResult {
-    /// Whether its process was killed from outside, for the first time.
-    pub(super) fn is_killed(&self) -> bool {
-        self.reason.starts_with(KILLED)
-    }
 }
 
 /// Why runs are simulated.
@@ -213,12 +203,12 @@ impl Inbox<'_> {
     fn failed(&mut self, run: u64, supervised: &Supervised) -> Result<(), String> {
         let count = self.pool.campaign.kept.count();
         let why = supervised.without_result();
-        let reason = match (supervised.end_reason.is_from_outside(), self.pool.attempt) {
-            (true, Attempt::First) => format!("{KILLED}: {why}"),
-            _ => why,
+        let (status, reason) = match (supervised.end_reason.is_from_outside(), self.pool.attempt) {
+            (true, Attempt::First) => (RunStatus::Killed, format!("killed from outside: {why}")),
+            _ => (RunStatus::Failed, why),
         };
         let numbers = vec![f64::NAN; count];
-        self.end(RunResult { run, status: RunStatus::Failed, reason, numbers, was_reset: self.was_reset })
+        self.end(RunResult { run, status, reason, numbers, was_reset: self.was_reset })
     }
 
     fn end(&mut self, result: RunResult) -> Result<(), String> {

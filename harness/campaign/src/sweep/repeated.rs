@@ -9,10 +9,7 @@ use std::{
 use fmi::csv::Real;
 use isolation::interrupt;
 
-use super::{
-    pool::{Attempt, Pool, RunResult},
-    worker::RunStatus,
-};
+use super::pool::{Attempt, Pool, RunResult};
 
 /// Runs that are repeated at most, one a process.
 const MAX_REPEATED: u64 = 4;
@@ -37,7 +34,7 @@ impl Sample {
 
     /// Takes a run that ended; one whose instance was not reset, or that failed, says nothing.
     pub(super) fn take(&mut self, result: &RunResult) {
-        if result.was_reset && result.status != RunStatus::Failed && self.runs.contains(&result.run) {
+        if result.was_reset && !result.status.has_failed() && self.runs.contains(&result.run) {
             self.results.push(result.clone());
         }
     }

@@ -2,6 +2,7 @@
 
 use std::{error::Error, ops::Range, path::Path};
 
+use files::outcome::Refusal;
 use fmi::{RecordedPoints, Value, csv};
 use inputs::{
     campaign::{
@@ -42,7 +43,7 @@ pub(super) struct Campaign {
 }
 
 /// The run that the runs of a campaign are like.
-pub(super) fn simulated(campaign: &CampaignFile, template: Option<&Path>) -> Result<Simulated, String> {
+pub(super) fn simulated(campaign: &CampaignFile, template: Option<&Path>) -> Result<Simulated, Refusal> {
     Simulated::new(&Run {
         fmu: campaign.simulated().to_owned(),
         start: campaign.start_s,
@@ -153,14 +154,14 @@ impl Reader<'_> {
     }
 
     /// Varied values, by the names that the FMU has.
-    fn varied(&self) -> Result<(Vec<Varied>, Sampling), String> {
+    fn varied(&self) -> Result<(Vec<Varied>, Sampling), Refusal> {
         let sampling = match self.file.sampling {
             SamplingWord::Random => Sampling::Random,
             SamplingWord::LatinHypercube => Sampling::LatinHypercube,
             SamplingWord::Sobol => Sampling::Sobol,
             SamplingWord::Grid => Sampling::Grid,
             SamplingWord::OneAtATime => Sampling::OneAtATime,
-            SamplingWord::File => return self.table(),
+            SamplingWord::File => return Ok(self.table()?),
         };
         let (mut varied, mut problems) = (Vec::new(), Vec::new());
         for at in self.file.distributions() {
@@ -169,7 +170,7 @@ impl Reader<'_> {
                 Err(what) => problems.push(self.file.problem(&at, &what)),
             }
         }
-        if problems.is_empty() { Ok((varied, sampling)) } else { Err(problems.join("\n")) }
+        Refusal::of_all(&problems).map_or(Ok((varied, sampling)), Err)
     }
 
     /// The variable of a name; vectors are named by element.

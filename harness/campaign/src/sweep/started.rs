@@ -28,7 +28,7 @@ pub(super) struct Started<'a> {
 
 /// How many runs ended how.
 #[derive(Default)]
-pub(super) struct Counts([u64; 4]);
+pub(super) struct Counts([u64; RunStatus::ALL.len()]);
 
 impl Started<'_> {
     /// Files that are read, so not written over.
@@ -55,7 +55,9 @@ impl Counts {
     }
 
     pub(super) fn status(&self) -> Answer {
-        Answer::from(self.0[RunStatus::Failed as usize] == 0)
+        Answer::from(
+            [RunStatus::Failed, RunStatus::Killed].iter().all(|status| self.0[*status as usize] == 0),
+        )
     }
 
     pub(super) fn text(&self) -> String {

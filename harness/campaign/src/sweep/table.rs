@@ -6,11 +6,7 @@ use files::Growing;
 use fmi::csv::{self, Real};
 use model_description::Description;
 
-use super::{
-    pool::{KILLED, RunResult},
-    resolved::Campaign,
-    worker::RunStatus,
-};
+use super::{pool::RunResult, resolved::Campaign, worker::RunStatus};
 
 /// Rows in order.
 pub(super) struct RunTable<'a> {
@@ -83,8 +79,8 @@ pub(super) struct LeftRows {
     bytes: Vec<u8>,
     /// The end of the header.
     begin: usize,
-    /// End of each row, status of its run, and whether its process was killed from outside.
-    rows: Vec<(usize, RunStatus, bool)>,
+    /// End of each row, and status of its run.
+    rows: Vec<(usize, RunStatus)>,
 }
 
 impl LeftRows {
@@ -115,15 +111,13 @@ impl LeftRows {
                 return Err(format!("{shown}: found another run {run}, allowed: {expected}"));
             }
             // Numbers hold no comma; behind them stand how the run ended and the reason.
-            let numbers = 1 + campaign.varied.len() + campaign.kept.count();
-            let mut ending = row.splitn(numbers + 2, ',').skip(numbers);
-            let word = ending.next().unwrap_or_default();
+            let word =
+                row.split(',').nth(1 + campaign.varied.len() + campaign.kept.count()).unwrap_or_default();
             let status = RunStatus::ALL.into_iter().find(|status| status.word() == word);
             let status =
                 status.ok_or_else(|| format!("{shown}: run {run}: found {word:?}, allowed: how it ended"))?;
-            let reason = ending.next().unwrap_or_default().trim_start_matches('"');
             begin += length;
-            left.rows.push((begin, status, status == RunStatus::Failed && reason.starts_with(KILLED)));
+            left.rows.push((begin, status));
         }
         Ok(left)
     }
@@ -140,23 +134,24 @@ impl LeftRows {
 
     /// How the runs ended whose rows stay.
     pub(super) fn statuses(&self) -> impl Iterator<Item = RunStatus> {
-        self.rows.iter().filter(|(.., is_killed)| !is_killed).map(|(_, status, _)| *status)
+        self.rows.iter().map(|(_, status)| *status).filter(|status| *status != RunStatus::Killed)
     }
 
     /// Places of rows whose process was killed from outside.
     pub(super) fn killed(&self) -> impl Iterator<Item = u64> {
-        self.rows.iter().enumerate().filter(|(_, (.., is_killed))| *is_killed).map(|(at, _)| at as u64)
+        let killed = self.rows.iter().enumerate().filter(|(_, (_, status))| *status == RunStatus::Killed);
+        killed.map(|(at, _)| at as u64)
     }
 
     /// How many rows stand before one that is simulated again, and the bytes up to there.
     fn kept(&self) -> (usize, usize) {
-        let rows = self.rows.iter().take_while(|(.., is_killed)| !is_killed).count();
+        let rows = self.rows.iter().take_while(|(_, status)| *status != RunStatus::Killed).count();
         (rows, if rows == 0 { self.begin } else { self.rows[rows - 1].0 })
     }
 
     /// The rows behind that one, by place.
     fn behind(&self) -> impl Iterator<Item = (u64, String)> {
-        let places = (self.kept().0 + 1..self.rows.len()).filter(|at| !self.rows[*at].2);
+        let places = (self.kept().0 + 1..self.rows.len()).filter(|at| self.rows[*at].1 != RunStatus::Killed);
         let text = |at: usize| &self.bytes[self.rows[at - 1].0..self.rows[at].0];
         places.map(move |at| (at as u64, String::from_utf8_lossy(text(at)).into_owned()))
     }

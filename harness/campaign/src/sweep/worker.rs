@@ -25,14 +25,21 @@ pub(super) enum RunStatus {
     Ended,
     /// A call failed, crashed or hung.
     Failed,
+    /// Its process was killed from outside for the first time, which says nothing of the run.
+    Killed,
 }
 
 impl RunStatus {
-    pub(super) const ALL: [Self; 4] = [Self::Ok, Self::Limit, Self::Ended, Self::Failed];
+    pub(super) const ALL: [Self; 5] = [Self::Ok, Self::Limit, Self::Ended, Self::Failed, Self::Killed];
+
+    /// Whether it has no numbers.
+    pub(super) fn has_failed(self) -> bool {
+        matches!(self, Self::Failed | Self::Killed)
+    }
 
     /// Its word in the table.
     pub(super) fn word(self) -> &'static str {
-        ["ok", "limit", "ended", "failed"][self as usize]
+        ["ok", "limit", "ended", "failed", "killed"][self as usize]
     }
 }
 

@@ -2,7 +2,8 @@
 
 use std::error::Error;
 
-use campaign::sweep;
+use campaign::{run, sweep};
+use files::outcome::Refusal;
 use inputs::{
     kind::{FileKind, is_blank},
     library::Library,
@@ -13,7 +14,7 @@ use packing::{
 };
 use planner::plans::{leg, momentum};
 
-use super::{mission, options::Check};
+use super::options::Check;
 
 /// Judges the file.
 pub(super) fn judged(arguments: &Check, file: &str) -> Result<Judged, Box<dyn Error>> {
@@ -24,20 +25,26 @@ pub(super) fn judged(arguments: &Check, file: &str) -> Result<Judged, Box<dyn Er
     }
     let kind = FileKind::recognize(&text).unwrap_or(FileKind::Spacecraft);
     let library = Library::new(arguments.template.as_deref());
-    let chain = |error: Box<dyn Error>| fmi::Error::chain(error.as_ref());
+    let unwarned = |summary: String| (summary, Vec::new());
     let read = match kind {
         FileKind::Spacecraft => {
             return packing::check::judged(&arguments.subject, arguments.template.as_deref(), &text);
         }
-        FileKind::Mission => return Ok(mission::judged(arguments, file)),
-        FileKind::Timeline => timeline::checked(file, &text),
-        FileKind::Plan => momentum::checked(&arguments.subject, library).map_err(chain),
-        FileKind::Leg => leg::checked(&arguments.subject, library).map_err(chain),
-        FileKind::Campaign => sweep::checked(&arguments.subject, library).map_err(chain),
-        FileKind::Ephemeris => ephemeris::checked(file, &text),
+        FileKind::Mission => run::checked::checked(&arguments.subject, library.template()),
+        FileKind::Timeline => timeline::checked(file, &text).map(unwarned).map_err(Into::into),
+        FileKind::Plan => momentum::checked(&arguments.subject, library).map(unwarned),
+        FileKind::Leg => leg::checked(&arguments.subject, library).map(unwarned),
+        FileKind::Campaign => sweep::checked(&arguments.subject, library).map(unwarned),
+        FileKind::Ephemeris => ephemeris::checked(file, &text).map(unwarned).map_err(Into::into),
     };
     Ok(match read {
-        Ok(summary) => Judged::Taken { summary: format!("{file}: ok: {summary}"), warnings: Vec::new() },
-        Err(problems) => Judged::Refused { problems, kind: kind.to_string() },
+        Ok((summary, warnings)) => Judged::Taken { summary: format!("{file}: ok: {summary}"), warnings },
+        Err(error) => {
+            let error = error.as_ref();
+            Judged::Refused {
+                problems: Refusal::new(error, fmi::Error::chain(error)),
+                kind: kind.to_string(),
+            }
+        }
     })
 }

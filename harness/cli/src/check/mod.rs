@@ -1,30 +1,22 @@
 //! `heliotorque check`: everything that can be wrong with an FMU, found and named.
 //!
-//! What can be read is checked here: archive, description, exported symbols. What has to be run is run as probes,
-//! each in a process of its own, so that an FMU that crashes or hangs is a finding and not the end.
+//! Archive, description and exported symbols are read here. Probes run in a process of their own each, so that an FMU that crashes or hangs
+//! is a finding and not the end.
 
-mod child;
 mod files;
-mod mission;
 mod options;
-mod report;
-mod system;
 
-use std::{
-    path::Path,
-    time::{Duration, Instant},
-};
+use std::path::Path;
 
 use fmi::{
     Fmu,
-    conformance::{Finding, PROBES, Probe as Probed, Trial, Verdict},
+    conformance::{Finding, PROBES, Probe as Probed, Report, Section},
 };
-use packing::{carried, pointing};
+use isolation::probes;
+use packing::{carried, check::Judged, pointing};
 
-use ::files::outcome::Outcome;
-pub(crate) use child::run_probe;
+use ::files::outcome::{self, Answer, Outcome};
 pub(crate) use options::Check;
-use report::{Listed, Section};
 
 /// Checks an FMU, a system or a spacecraft and prints the report.
 pub(crate) fn run(arguments: &Check) -> Outcome {
@@ -32,7 +24,7 @@ pub(crate) fn run(arguments: &Check) -> Outcome {
         return match (arguments.is_static, &arguments.probe) {
             (false, None) => {
                 let file = arguments.subject.display().to_string();
-                report::print_judged(&file, &files::judged(arguments, &file)?, arguments.json)
+                print_judged(arguments, &file, &files::judged(arguments, &file)?)
             }
             (true, _) => Err("--static is for an FMU: a spacecraft is only read".into()),
             (false, Some(_)) => Err("--probe is for an FMU: a spacecraft has no probes".into()),
@@ -43,7 +35,7 @@ pub(crate) fn run(arguments: &Check) -> Outcome {
             return Err("--probe and --template are for an FMU or a spacecraft, and this is a system".into());
         }
         check_there(&arguments.subject)?;
-        return report(arguments, &[Section::new("system", system::findings(&arguments.subject))]);
+        return report(arguments, &[Section::new("system", systems::findings(&arguments.subject))]);
     }
     if arguments.template.is_some() {
         return Err("--template is for a spacecraft (.toml): an FMU is checked by its own library".into());
@@ -79,10 +71,10 @@ pub(crate) fn run(arguments: &Check) -> Outcome {
     }
     sections.extend(carried::summaries(&fmu).into_iter().map(|(file, read)| match read {
         Ok(summary) => Section::new(file, vec![Finding::good(summary)]),
-        Err(problems) => Section::new(file, problems.lines().map(Finding::bad)),
+        Err(problems) => Section::new(file, problems.text.lines().map(Finding::bad)),
     }));
     if !arguments.is_static && fmu.co_simulation().is_ok() {
-        probe(arguments, &fmu, &mut sections);
+        sections.extend(probes::sections(&fmu, |probe| is_selected(arguments, probe), arguments.deadline()));
     }
     report(arguments, &sections)
 }
@@ -97,52 +89,23 @@ fn is_selected(arguments: &Check, probe: &Probed) -> bool {
     arguments.probe.as_ref().is_none_or(|text| probe.name.contains(text.as_str()))
 }
 
-/// Runs the probes with their trials until the time is over.
-fn probe(arguments: &Check, fmu: &Fmu, sections: &mut Vec<Section>) {
-    let deadline = arguments.deadline();
-    let loads = child::run(fmu, "library", deadline);
-    // A library that loads leaves something to try, whatever it lacks.
-    let usable = loads.first().is_some_and(|finding| finding.verdict == Verdict::Good);
-    sections.push(Section::new("library", loads));
-    let rest = PROBES.iter().filter(|probe| usable && probe.name != "library");
-    for probe in rest.filter(|probe| is_selected(arguments, probe)) {
-        let trials = fmi::conformance::trials().filter(|trial| trial.probe == probe.name);
-        let mut findings: Vec<Listed> = Vec::new();
-        for trial in [None].into_iter().chain(trials.map(Some)) {
-            if Instant::now() >= deadline.0 {
-                let what = format!("the {} s of the check are over (see --timeout)", deadline.1);
-                findings.push(Finding::skipped(what).into());
-                break;
-            }
-            findings.extend(match trial {
-                None => child::run(fmu, probe.name, deadline).into_iter().map(Into::into).collect(),
-                Some(trial) => try_out(fmu, trial, deadline),
-            });
-        }
-        sections.push(Section::new(format!("{}: {}", probe.name, probe.title), findings));
-    }
-}
-
-/// Longest wait for the answer to a call that makes no sense.
-const SENSELESS_PATIENCE: Duration = Duration::from_secs(5);
-
-/// Runs a trial; what an FMU that is lost in it leaves behind names the call.
-fn try_out(fmu: &Fmu, trial: &Trial, deadline: (Instant, f64)) -> Vec<Listed> {
-    let soon = (Instant::now() + SENSELESS_PATIENCE, SENSELESS_PATIENCE.as_secs_f64());
-    let deadline = if trial.senseless && soon.0 < deadline.0 { soon } else { deadline };
-    let mut findings: Vec<Listed> =
-        child::run(fmu, &trial.name(), deadline).into_iter().map(Into::into).collect();
-    let hung = Instant::now() >= deadline.0;
-    let bad = findings.iter_mut().map(|it| &mut it.finding).filter(|it| it.verdict == Verdict::Bad);
-    for finding in bad {
-        finding.text = format!("{}, {}: {}", trial.call, trial.what, finding.text);
-        if trial.disputed || hung && trial.senseless {
-            finding.verdict = Verdict::Note;
-        }
-    }
-    findings
-}
-
+/// Prints the report.
 fn report(arguments: &Check, sections: &[Section]) -> Outcome {
-    report::print(&arguments.subject.display().to_string(), sections, arguments.verbose, arguments.json)
+    let file = arguments.subject.display().to_string();
+    let report = Report::new(&file, sections);
+    let text = if arguments.json { report.json()? } else { report.text(arguments.verbose) };
+    let [.., failed] = report.counts();
+    outcome::printed(&text).map(|_| Answer::from(failed == 0))
+}
+
+/// Prints the verdict on a file.
+fn print_judged(arguments: &Check, file: &str, judged: &Judged) -> Outcome {
+    match judged {
+        _ if arguments.json => report(arguments, &[judged.section()]),
+        Judged::Taken { summary, warnings } => {
+            let warnings: String = warnings.iter().map(|warning| format!("\nwarning: {warning}")).collect();
+            outcome::printed(&format!("{summary}{warnings}"))
+        }
+        Judged::Refused { problems, kind } => problems.print(file, kind),
+    }
 }

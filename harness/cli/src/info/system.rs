@@ -1,8 +1,8 @@
 //! `heliotorque info` of a system: its components, what is connected, what is open.
 
+use packing::overview::experiment::times;
 use systems::System;
 
-use super::experiment::times;
 use crate::wire::{grouped, vector, wrapped};
 
 /// The tables.

@@ -109,6 +109,7 @@ impl Run {
         } = self.clone();
         campaign::run::Run {
             fmu,
+            origin: None,
             start,
             stop,
             step,

@@ -95,6 +95,14 @@ fn rows_that_a_kill_left_are_not_thrown_away() {
     let bytes = fs::read(&numbers).unwrap();
     let mut with_hole = bytes.clone();
     with_hole[1000..1100].fill(0);
+    // A run whose process was killed from outside is simulated again, and nothing stands for it until then.
+    let text = String::from_utf8(left.clone()).unwrap();
+    let row = text.lines().nth(3).unwrap();
+    let varied = row.splitn(4, ',').take(3).collect::<Vec<_>>().join(",");
+    fs::write(&part, text.replacen(row, &format!("{varied},,killed,killed from outside"), 1)).unwrap();
+    run(&arguments(&file, &output, &["--resume"]), 0);
+    assert!(results(&output) == results(&whole));
+    fs::remove_file(&output).unwrap();
     for damaged in [&bytes[..bytes.len() / 2 - 3], &with_hole, &[]] {
         fs::write(&part, &left).unwrap();
         fs::write(&numbers, damaged).unwrap();

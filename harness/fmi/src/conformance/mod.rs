@@ -7,6 +7,7 @@ mod experiment;
 mod finding;
 mod probe;
 mod probes;
+mod report;
 mod static_checks;
 mod verdict;
 
@@ -15,6 +16,7 @@ use crate::{Error, Fmu};
 pub use finding::{Finding, Verdict};
 pub use probe::{Findings, Probe, Trial};
 pub use probes::state::resets;
+pub use report::{Listed, Report, Section};
 pub use static_checks::{archive, description};
 
 use probes::{calls, host, library, reference as reference_flight, state, stepping, times, values};

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use files::outcome::Refusal;
 use physics::toml::Place;
 
 use super::keys::{CampaignKeys, CampaignValues, SamplingWord, Vary};
@@ -40,7 +41,7 @@ impl CampaignFile {
     ///
     /// # Errors
     /// A file that cannot be read; everything wrong in it with line, key, what was found and what is allowed.
-    pub fn read(file: &Path) -> Result<Self, String> {
+    pub fn read(file: &Path) -> Result<Self, Refusal> {
         reading::read(FileKind::Campaign, file, judge)
     }
 }

@@ -12,15 +12,15 @@ use crate::reading::{
 tables! {
 /// Many runs of a mission or an FMU: what varies and what is kept of each run. Paths are relative to the file.
 struct CampaignKeys makes #[derive(Clone, Debug)] pub struct CampaignValues {
-    /// The mission: spacecraft or FMU, times, values, inputs, limits.
+    /// The mission, with a spacecraft, a model or an FMU: its times, values, inputs and limits count.
     mission: Option<InputFile>,
-    /// An FMU that is packed already, instead of a mission.
+    /// An FMU of FMI 2.0 co-simulation, instead of a mission.
     fmu: Option<ShippedFile>,
-    /// Where its runs begin, in s or with a unit; otherwise its default.
+    /// Where its runs begin, a number of s or with a unit; otherwise its default.
     start as start_s: Option<Duration>,
     /// Where its runs end; otherwise its default.
     stop as stop_s: Option<Duration>,
-    /// Communication step; the mission's or the FMU's default unless given.
+    /// Communication step; the mission's or the FMU's unless given.
     step as step_s: Option<Span>,
     /// How many runs; grid, oneAtATime and file have a number of their own.
     runs: Option<At<CountFromOne>>,
@@ -28,11 +28,11 @@ struct CampaignKeys makes #[derive(Clone, Debug)] pub struct CampaignValues {
     seed: Count = 0,
     /// How runs are spread over what varies; random unless given.
     sampling: SamplingWord => |_| SamplingWord::Random,
-    /// The values of every run with sampling file: a CSV file whose columns are named as variables.
+    /// The values of every run with sampling file: a CSV file whose columns are named as variables, as `--dry-run` prints it.
     file as table: Option<InputFile>,
     /// Correlations of normal variables: two names and a coefficient each.
     correlation as correlations: Vec<At<Correlation>> => |_| Vec::new(),
-    /// What varies, by names of variables in quotes.
+    /// Parameters, inputs and start values that vary, by names in quotes; vectors are named by element.
     vary: Named<VaryKeys> => |_| Vec::new(),
     /// What is kept of each run; the final values of all outputs unless given.
     keep: Option<KeepKeys>,
@@ -61,16 +61,17 @@ struct VaryKeys makes #[derive(Clone, Debug)] pub struct Vary {
 
 /// What is kept of each run: names of variables, vectors, patterns with * for outputs.
 struct KeepKeys makes #[derive(Clone, Debug)] pub struct Keep {
-    /// The value at the end, as NAME.final.
+    /// Values at the end, as NAME.final; of all outputs without `[keep]`.
     r#final as finals: Vec<At<String>> => |_| Vec::new(),
     /// The smallest and largest value, the largest magnitude and its time at communication points, as NAME.min, NAME.max, NAME.largest,
-    /// NAME.timeOfLargest.
+    /// NAME.timeOfLargest (s).
     extremes: Vec<At<String>> => |_| Vec::new(),
-    /// Percentiles of all runs over time, in a table beside the one of the runs.
+    /// 1, 5, 25, 50, 75, 95 and 99 % of all runs over time, in a table of its own (runs-percentiles.csv); failed runs do not count.
     percentiles: Vec<At<String>> => |_| Vec::new(),
-    /// Time between their rows, in s or with a unit; every communication point unless given.
+    /// Time between their rows, a number of s or with a unit; every communication point unless given.
     every as every_s: Option<Span>,
-    /// A folder that takes a table of every run over time: what the mission records, otherwise every output.
+    /// A folder, in the campaign's own or below, that takes a table of every run over time (run-17.csv): what the mission records, otherwise
+    /// every output.
     histories: Option<At<OutputPath>>,
 } rules {
     Requires every => percentiles: "it without `percentiles`", "`every` beside `percentiles`";

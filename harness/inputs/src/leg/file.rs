@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use files::outcome::Refusal;
 use physics::toml::Place;
 
 use super::{
@@ -21,14 +22,8 @@ impl LegFile {
     ///
     /// # Errors
     /// A file that cannot be read; everything wrong in it with line, key, what was found and what is allowed.
-    pub fn read(file: &Path) -> Result<Self, String> {
+    pub fn read(file: &Path) -> Result<Self, Refusal> {
         reading::read(FileKind::Leg, file, judge)
-    }
-
-    /// An error of its mission, which stands in a file of its own with the start of the leg.
-    pub fn in_mission(&self, error: &str, begun: &Path) -> String {
-        let [begun, own] = [begun, &self.mission.it].map(|path| path.display().to_string());
-        self.problem(&self.mission, &error.replace(&begun, &own))
     }
 
     /// Aimpoint of the encounter.

@@ -13,8 +13,8 @@ tables! {
 /// A leg: the place and date at which it begins, and the encounter with a planet that it leads to. Lengths, speeds and angles are SI
 /// numbers or strings with a unit.
 struct LegKeys makes #[derive(Clone, Debug)] pub struct LegValues {
-    /// The mission: spacecraft, values, timeline, with orbit.center sun, orbit.dynamics nBody and encounter.body. The path is relative to
-    /// this file.
+    /// The mission of MomentumPlant: spacecraft, values, timeline, with `orbit.center` sun, `orbit.dynamics` nBody and `encounter.body`; its own
+    /// start of the orbit does not count. The path is relative to this file.
     mission: At<InputFile>,
     /// Where and when it begins.
     depart: DepartKeys,
@@ -35,21 +35,21 @@ struct DepartKeys makes #[derive(Clone, Debug)] pub struct Departure {
 
 /// The encounter.
 struct ArriveKeys makes #[derive(Clone, Debug)] pub struct Arrival {
-    /// The planet, the mission's encounter.body.
+    /// The planet, the mission's `encounter.body`.
     body: At<ArrivalBody>,
     /// When the closest approach shall be: a date or simulation time.
     at: At<Moment>,
-    /// Altitude of the closest approach, as it is simulated; beside `angle`, instead of `bT` and `bR`.
+    /// Altitude of the closest approach above `planet.radius`, as it is simulated; with `angle`, instead of `bT` and `bR`.
     altitude as altitude_m: Option<At<Length>>,
     /// Angle of B from T toward R.
     angle as angle_rad: Option<At<Turn>>,
-    /// Component of B along T, of the hyperbola that osculates encounter.leadTime (6 h) before the closest approach.
+    /// Component of B along T, of the hyperbola that osculates `encounter.leadTime` (6 h) before the closest approach.
     bT as b_t_m: Option<At<Length>>,
     /// Component of B along R.
     bR as b_r_m: Option<At<Length>>,
     /// Whole revolutions about the Sun.
     revolutions: At<Revolutions> = 0,
-    /// Which of the two arcs with so many revolutions.
+    /// Which of the two arcs with so many revolutions, from one on.
     branch: Option<ArcBranch>,
 }
 }

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use files::outcome::Refusal;
 use physics::toml::Place;
 
 use super::{
@@ -23,16 +24,26 @@ impl Mission {
     ///
     /// # Errors
     /// A file that cannot be read; everything wrong in it with line, key, what was found and what is allowed.
-    pub fn read(file: &Path) -> Result<Self, String> {
-        let text = FileKind::Mission.read(file)?;
+    pub fn read(file: &Path) -> Result<Self, Refusal> {
+        Self::read_as(file, file)
+    }
+
+    /// Reads a mission that messages name by another file.
+    ///
+    /// # Errors
+    /// The same.
+    pub fn read_as(path: &Path, file: &Path) -> Result<Self, Refusal> {
+        let text = files::read_text(path)?;
+        FileKind::Mission.check(&file.display().to_string(), &text)?;
         if FileKind::recognize(&text).is_none() {
             return Err(format!(
                 "{}: found a file without any key of a mission, allowed: spacecraft = \"my.toml\" or fmu = \"My.fmu\", stop, step, \
                  record: see `heliotorque new mission`",
                 file.display()
-            ));
+            )
+            .into());
         }
-        reading::parse(file, text, judge)
+        reading::parse([file, path], text, judge)
     }
 
     /// The files that it names and reads.
@@ -40,7 +51,7 @@ impl Mission {
         let table = if let Some(Inputs::File(path)) = &self.inputs { Some(path) } else { None };
         let files =
             [self.fmu.as_ref(), self.spacecraft.as_ref(), self.timeline.as_ref(), self.ephemeris.as_ref()];
-        files.into_iter().flatten().chain(table).map(PathBuf::as_path).chain([self.file.as_path()]).collect()
+        files.into_iter().flatten().chain(table).map(PathBuf::as_path).chain([self.path.as_path()]).collect()
     }
 }
 

@@ -22,15 +22,15 @@ struct MissionKeys makes #[derive(Clone, Debug)] pub struct MissionValues {
     /// Positions over time, a TOML file, for models that take one.
     ephemeris: Option<InputFile>,
     /// When the flight begins: a date that ends in UTC, Z, TDB, TT or TAI, or a Julian date ("2011-04-06T00:00:00 UTC"), which is then simulation time 0; or
-    /// simulation time, in s or with a unit ("10 d").
+    /// simulation time, a number of s or with a unit ("10 d").
     start: Option<At<Moment>>,
     /// When it ends: a date, if `start` is one; or simulation time.
     stop: Option<At<Moment>>,
-    /// Communication step, in s or with a unit ("60 s").
+    /// Communication step, a number of s or with a unit ("60 s").
     step as step_s: Option<Span>,
     /// Variables to record: names, vectors, patterns with * for outputs; otherwise every output.
     record: Option<Vec<At<String>>>,
-    /// Record the step nearest to each multiple of this time, in s or with a unit; otherwise every step.
+    /// Record the step nearest to each multiple of this time, a number of s or with a unit; otherwise every step.
     every as every_s: Option<Span>,
     /// The CSV file of what is recorded.
     output: Option<OutputPath>,

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use files::outcome::Refusal;
 use fmi::{InputTable, Value};
 use model_description::{Causality, Description, ScalarVariable, VariableKind, value};
 use physics::toml::MOST_PROBLEMS;
@@ -50,7 +51,7 @@ impl Mission {
         described: &Description,
         later: &[String],
         start_s: Option<f64>,
-    ) -> Result<Resolved, String> {
+    ) -> Result<Resolved, Refusal> {
         let settings = self.settings(described);
         let together = settings.iter().map(|(_, setting)| setting).chain(later).map(String::as_str);
         let dates = Dates::new(described, together, start_s.or(self.start_s()));
@@ -64,7 +65,7 @@ impl Mission {
         };
         resolver.problems.sort_by_key(|(line, _)| *line);
         let problems: Vec<String> = resolver.problems.into_iter().map(|(_, problem)| problem).collect();
-        if problems.is_empty() { Ok(resolved) } else { Err(problems.join("\n")) }
+        Refusal::of_all(&problems).map_or(Ok(resolved), Err)
     }
 
     /// Its values as `--set` would take them, the date of its start among them, each with the place that it stands in.

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use files::outcome::Refusal;
 use physics::toml::{Place, Written as _};
 
 use super::{
@@ -23,7 +24,7 @@ impl PlanFile {
     ///
     /// # Errors
     /// A file that cannot be read; everything wrong in it with line, key, what was found and what is allowed.
-    pub fn read(file: &Path) -> Result<Self, String> {
+    pub fn read(file: &Path) -> Result<Self, Refusal> {
         reading::read(FileKind::Plan, file, judge)
     }
 }

@@ -21,13 +21,15 @@ tables! {
 /// downlinks), and what its momentum is kept below. Times,
 /// angles and momenta are SI numbers or strings with a unit.
 struct PlanKeys makes #[derive(Clone, Debug)] pub struct PlanValues {
-    /// The mission: spacecraft, times, values, timeline. The path is relative to this file.
+    /// The mission of MomentumPlant in guided flight, with spacecraft or model and `momentum.strategy` dumpsOnly, in cruise or in an orbit
+    /// phase. The path is relative to this file.
     mission: At<InputFile>,
-    /// How long from its start the mission stays as it is.
+    /// How long from its start the mission stays as it is, arrays included.
     freeze as freeze_s: At<SpanFromZero> = "14 d",
-    /// Distance of the points at which momentum and path are looked at; "1 h" unless given, "10 min" in an orbit phase.
+    /// Distance of the points at which momentum and path are looked at, by which the partials of a flyby are exact; "1 h" unless given,
+    /// "10 min" in an orbit phase.
     every as every_s: Option<SpanFromMinute>,
-    /// Length of a window.
+    /// Length of the windows that the free time after `freeze` is cut into.
     window as window_s: At<SpanFromHour> = "3 d",
     /// Limit of the momentum.
     momentum: MomentumKeys => |_| MomentumKeys::default().value(),
@@ -41,9 +43,9 @@ struct PlanKeys makes #[derive(Clone, Debug)] pub struct PlanValues {
     alternation: At<Share> = 0.5,
     /// Ground contacts, in the order of time: no alternate attitude in them.
     contact as contacts: At<Vec<At<ContactKeys>>> => |_| At::default(),
-    /// Share of every window that contacts take, where none is listed.
+    /// Share of every window that contacts take, where none is listed: no alternate attitude in it.
     contactShare as contact_share: At<Share> = 0,
-    /// Activities whose price is reported.
+    /// Activities whose price is reported: what adding them would cost.
     activity as activities: Vec<At<ActivityKeys>> => |_| Vec::new(),
     /// Encounter with a planet that the plan aims at.
     flyby: Option<At<FlybyKeys>>,
@@ -59,7 +61,8 @@ struct PlanKeys makes #[derive(Clone, Debug)] pub struct PlanValues {
 
 /// Limit of the momentum.
 struct MomentumKeys makes #[derive(Clone, Debug)] pub struct MomentumBound or Default {
-    /// Greatest length of the angular momentum; the least `dump.threshold` unless given.
+    /// Greatest length of `momentum.inertial`, under `momentum.convention` bodyIntegral greatest component of `momentum.body`; the least
+    /// `dump.threshold` unless given.
     limit as limit_n_m_s: Option<Momentum>,
     /// Share of the limit that is left.
     margin: Margin = 0,
@@ -81,9 +84,9 @@ struct SunOffsetKeys makes #[derive(Clone, Debug)] pub struct SunOffset or Defau
 
 /// Largest tilt, either way.
 struct TiltKeys makes #[derive(Clone, Debug)] pub struct Tilt or Default {
-    /// Of the Sun's azimuth, from -Y toward +X.
+    /// Of the Sun's azimuth, from -Y toward +X, within the keep-in zone.
     azimuth as azimuth_rad: Option<QuarterTurn>,
-    /// Of the Sun's elevation, positive toward -Z.
+    /// Of the Sun's elevation, positive toward -Z, within the keep-in zone.
     elevation as elevation_rad: Option<QuarterTurn>,
 }
 
@@ -120,11 +123,12 @@ struct FlybyKeys makes #[derive(Clone, Debug)] pub struct Flyby {
     altitude as altitude_m: Option<At<Length>>,
     /// Angle of B from T toward R.
     angle as angle_rad: Option<At<Angle>>,
-    /// When the spacecraft arrives: a date or simulation time; for a fixed arrival.
+    /// When the spacecraft arrives: a date or simulation time; with a fixed arrival.
     time: Option<At<Moment>>,
     /// Whether the time of arrival is a goal too; free unless given.
     arrival: Arrives => |_| Arrives::Free,
-    /// From when on the plan may change the mission: a date or simulation time; `freeze` where it is not given.
+    /// From when on the plan may change the mission, a date or simulation time, instead of `freeze`; arrays before it by timeline or
+    /// `sunOffset`.
     from: Option<At<Moment>>,
     /// Greatest miss.
     tolerance as tolerance_m: LengthFromMeter = "1 km",
@@ -132,13 +136,13 @@ struct FlybyKeys makes #[derive(Clone, Debug)] pub struct Flyby {
 
 /// State from orbit determination, EME2000 from `orbit.center`.
 struct UpdateKeys makes #[derive(Clone, Debug)] pub struct Update {
-    /// When it holds: a date or simulation time; the mission of the plan starts there.
+    /// When it holds: a date or simulation time; the mission of the plan starts there, with the momentum that its flight has then.
     at: At<Moment>,
     /// Position in m; that of the mission unless given.
     position as position_m: Option<Triple>,
     /// Velocity in m/s; that of the mission unless given.
     velocity as velocity_m_s: Option<Triple>,
-    /// Covariance of position (m) and velocity (m/s): six rows of six numbers, as CSV. The path is relative to this file.
+    /// Covariance of position (m) and velocity (m/s) for `[montecarlo]`: six rows of six numbers, as CSV. The path is relative to this file.
     covariance: Option<CovarianceFile>,
 }
 

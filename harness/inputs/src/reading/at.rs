@@ -87,7 +87,7 @@ impl<T: JsonSchema> JsonSchema for At<T> {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(transparent)]
 #[schemars(inline)]
-pub struct Named<T>(pub BTreeMap<String, At<T>>);
+pub(crate) struct Named<T>(pub BTreeMap<String, At<T>>);
 
 impl<T: Checked> Checked for Named<T> {
     fn check(&mut self, at: &Place<'_>, folder: &Path) {

@@ -14,7 +14,7 @@ macro_rules! paths {
         #[derive(Clone, Debug, Deserialize, schemars::JsonSchema)]
         #[serde(transparent)]
         #[schemars(inline)]
-        pub struct $name(String, #[serde(skip)] PathBuf);
+        pub(crate) struct $name(String, #[serde(skip)] PathBuf);
 
         impl Checked for $name {
             fn check(&mut self, at: &Place<'_>, folder: &Path) {

@@ -31,7 +31,7 @@ macro_rules! quantities {
         $(#[$about])*
         #[derive(Clone, Debug, Deserialize)]
         #[serde(transparent)]
-        pub struct $name(pub(crate) Written);
+        pub(crate) struct $name(pub(crate) Written);
 
         impl $name {
             /// Returns the value; `None` where what is written is not allowed.
@@ -181,6 +181,7 @@ quantities! {
         {
             "type": "array",
             "prefixItems": [{ "type": "string" }, { "type": "string" }, { "type": "number", "minimum": -1, "maximum": 1 }],
+            "items": { "type": ["string", "number"] },
             "minItems": 3,
             "maxItems": 3
         };

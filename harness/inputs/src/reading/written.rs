@@ -12,7 +12,7 @@ use crate::values;
 /// Value of a key.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(untagged)]
-pub enum Written {
+pub(crate) enum Written {
     /// A whole number, which may be an option's.
     Integer(i64),
     /// A number.
@@ -29,7 +29,7 @@ pub enum Written {
 
 impl Written {
     /// Returns the text for `--set name=`: a vector with commas; `None` for a table.
-    pub fn setting(&self) -> Option<String> {
+    pub(crate) fn setting(&self) -> Option<String> {
         Some(match self {
             Self::Number(number) => number.to_string(),
             Self::Integer(number) => number.to_string(),
@@ -46,12 +46,12 @@ impl Written {
     }
 
     /// The same of a number or a text alone.
-    pub fn scalar(&self) -> Option<String> {
+    pub(crate) fn scalar(&self) -> Option<String> {
         self.setting().filter(|_| matches!(self, Self::Number(_) | Self::Integer(_) | Self::Text(_)))
     }
 
     /// A text that looks like a date.
-    pub fn date(&self) -> Option<&str> {
+    pub(crate) fn date(&self) -> Option<&str> {
         if let Self::Text(text) = self {
             Some(text.as_str()).filter(|it| dates::looks_like_date(it))
         } else {
@@ -60,7 +60,7 @@ impl Written {
     }
 
     /// A number without a unit.
-    pub fn number(&self) -> Option<f64> {
+    pub(crate) fn number(&self) -> Option<f64> {
         match self {
             Self::Integer(number) => Some(*number as f64),
             Self::Number(number) => Some(*number),
@@ -69,7 +69,7 @@ impl Written {
     }
 
     /// A finite number in the SI unit of this name, or a text with a unit.
-    pub fn quantity(&self, unit: &str) -> Option<f64> {
+    pub(crate) fn quantity(&self, unit: &str) -> Option<f64> {
         let number = if let Self::Text(text) = self { quantity::read(text, unit) } else { self.number() };
         number.filter(|number| number.is_finite())
     }
@@ -80,12 +80,12 @@ impl Written {
     }
 
     /// A time in s.
-    pub fn duration_s(&self) -> Option<f64> {
+    pub(crate) fn duration_s(&self) -> Option<f64> {
         values::duration(&self.setting()?).ok()
     }
 
     /// A time above 0, in s.
-    pub fn span_s(&self) -> Option<f64> {
+    pub(crate) fn span_s(&self) -> Option<f64> {
         values::span(&self.setting()?).ok()
     }
 }

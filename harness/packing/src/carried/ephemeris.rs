@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use files::outcome::Refusal;
+use inputs::reading::refusal;
 use physics::{
     constants::DAY_S,
     environment::{
@@ -15,17 +17,17 @@ use physics::{
 pub const FILE: &str = "ephemeris.toml";
 
 /// Reads the positions in an FMU's resources, or their fault.
-pub fn read(resources: &Path) -> Result<String, String> {
+pub fn read(resources: &Path) -> Result<String, Refusal> {
     let read = OnboardEphemeris::from_toml(FILE, &files::read_text(&resources.join(FILE))?);
-    read.map(|ephemeris| summary(&ephemeris)).map_err(|error| error.to_string())
+    read.map(|ephemeris| summary(&ephemeris)).map_err(refusal)
 }
 
 /// Table of an ephemeris file that can be read.
 ///
 /// # Errors
 /// Everything wrong in the file.
-pub fn checked(file: &str, text: &str) -> Result<String, String> {
-    let read = OnboardEphemeris::from_toml(file, text).map_err(|problems| problems.to_string())?;
+pub fn checked(file: &str, text: &str) -> Result<String, Refusal> {
+    let read = OnboardEphemeris::from_toml(file, text).map_err(refusal)?;
     Ok(table(&read, text.len()))
 }
 

@@ -5,14 +5,15 @@ pub mod timeline;
 
 use std::path::Path;
 
+use files::outcome::Refusal;
 use fmi::Fmu;
 use inputs::home;
 
-/// Reads a file of some resources: what it holds in a line, or what is wrong with it, a line for each problem.
-type Read = fn(&Fmu, &Path) -> Result<String, String>;
+/// Reads a file of some resources: what it holds in a line, or what is wrong with it.
+type Read = fn(&Fmu, &Path) -> Result<String, Refusal>;
 
 /// Returns the summaries of an FMU's files, by their names.
-pub fn summaries(fmu: &Fmu) -> Vec<(&'static str, Result<String, String>)> {
+pub fn summaries(fmu: &Fmu) -> Vec<(&'static str, Result<String, Refusal>)> {
     let resources = fmu.folder().join("resources");
     let all: [(&str, Read); 2] =
         [(timeline::FILE, timeline::read), (ephemeris::FILE, |_, resources| ephemeris::read(resources))];

@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use files::outcome::Refusal;
 use fmi::{Fmu, Value};
-use inputs::variables::item;
+use inputs::{reading::refusal, variables::item};
 use model_description::Description;
 use physics::{
     environment::dates,
@@ -19,13 +20,12 @@ pub const FILE: &str = "timeline.toml";
 const OF_MODES: &str = "mode.request";
 
 /// Reads the timeline in an FMU's resources, as its model does, or its fault.
-pub fn read(fmu: &Fmu, resources: &Path) -> Result<String, String> {
+pub fn read(fmu: &Fmu, resources: &Path) -> Result<String, Refusal> {
     let text = |file: &str| files::read_text(&resources.join(file));
-    let spacecraft = Spacecraft::from_toml("spacecraft.toml", &text("spacecraft.toml")?)
-        .map_err(|error| error.to_string())?;
+    let spacecraft = Spacecraft::from_toml("spacecraft.toml", &text("spacecraft.toml")?).map_err(refusal)?;
     let has_modes = fmu.description().variables.iter().any(|it| it.name == OF_MODES);
     let read = if has_modes { Timeline::from_toml } else { Timeline::of_plant };
-    read(FILE, &text(FILE)?, &spacecraft).map(|it| summary(&it)).map_err(|error| error.to_string())
+    read(FILE, &text(FILE)?, &spacecraft).map(|it| summary(&it)).map_err(refusal)
 }
 
 /// Names of the commands in the timeline of an FMU that is unpacked there; `None` without one.
@@ -71,11 +71,10 @@ pub fn summary(timeline: &Timeline) -> String {
 ///
 /// # Errors
 /// Everything wrong in the file.
-pub fn checked(file: &str, text: &str) -> Result<String, String> {
-    let spacecraft =
-        Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).map_err(|error| error.to_string())?;
+pub fn checked(file: &str, text: &str) -> Result<String, Refusal> {
+    let spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).map_err(refusal)?;
     let instruments: Vec<&str> = spacecraft.instruments.iter().map(|it| it.name.as_str()).collect();
-    let read = Timeline::from_toml(file, text, &spacecraft).map_err(|problems| problems.to_string())?;
+    let read = Timeline::from_toml(file, text, &spacecraft).map_err(refusal)?;
     let of_one = of_one_model(file, text, &spacecraft, &read);
     Ok(format!(
         "{}; with the models' own spacecraft, its instruments {}, its sets of thrusters {} and its {} panels; \

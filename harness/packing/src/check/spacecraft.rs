@@ -5,8 +5,12 @@
 use std::{collections::BTreeSet, error::Error, path::Path};
 
 use drawing::scenes::dish_of;
-use fmi::{Described, Value};
-use inputs::variables;
+use files::outcome::Refusal;
+use fmi::{
+    Described, Value,
+    conformance::{Finding, Section},
+};
+use inputs::{reading::refusal, variables};
 use model_description::Description;
 use physics::{
     environment::sun::SOLAR_FLUX_W_M2,
@@ -35,11 +39,24 @@ pub enum Judged {
     },
     /// Refused as a file of a kind.
     Refused {
-        /// Problems, a line each.
-        problems: String,
+        /// Problems.
+        problems: Refusal,
         /// The kind.
         kind: String,
     },
+}
+
+impl Judged {
+    /// Verdict as findings.
+    pub fn section(&self) -> Section {
+        match self {
+            Self::Taken { summary, warnings } => {
+                let warnings = warnings.iter().map(Finding::note);
+                Section::new("file", [Finding::good(summary)].into_iter().chain(warnings))
+            }
+            Self::Refused { problems, kind } => Section::new(kind, problems.text.lines().map(Finding::bad)),
+        }
+    }
 }
 
 /// Text of the spacecraft that models have by default.
@@ -82,7 +99,7 @@ pub fn judged(path: &Path, template: Option<&Path>, text: &str) -> Result<Judged
     // One that fits better and fails without its start values too has the reason.
     let has_reason = |model: &Described| fittest.is_none_or(|(best, _)| rank(model) >= rank(best));
     if let Some((model, problems)) = of_start.filter(|(model, _)| taken.is_some() || has_reason(model)) {
-        return Ok(refused(model, problems.clone()));
+        return Ok(refused(model, counted(file, text, problems)));
     }
     // Each model takes its own kind of file; one that takes this one is enough.
     if let Some((described, description)) = taken {
@@ -91,7 +108,7 @@ pub fn judged(path: &Path, template: Option<&Path>, text: &str) -> Result<Judged
         let assembled = assemble(&source, &parts)?;
         let logged = match reference_flight(&assembled.entries, &described.reference_inputs) {
             Ok((_, logged)) => logged,
-            Err(reason) => return Ok(refused(&described, format!("{file}: {reason}"))),
+            Err(reason) => return Ok(refused(&described, format!("{file}: {reason}").into())),
         };
         let windows = pointing::windows_of(text);
         let points = pointing::sentence(&description, windows.as_slice())
@@ -121,7 +138,7 @@ pub fn judged(path: &Path, template: Option<&Path>, text: &str) -> Result<Judged
         |model: &Described| binary.describe(&model.model, None, Some(&fittest.0.default_setup)).is_ok();
     let chosen = refusals.iter().find(|(model, _)| is_own(model) && takes_the_same(model));
     let (model, problems) = chosen.unwrap_or(fittest);
-    Ok(refused(model, problems.clone()))
+    Ok(refused(model, counted(file, text, problems)))
 }
 
 /// How the FMU takes sunlight as it is packed.
@@ -134,8 +151,18 @@ fn sunlight(description: &Description) -> Sunlight {
 }
 
 /// Problems that a model finds in the file.
-fn refused(model: &Described, problems: String) -> Judged {
+fn refused(model: &Described, problems: Refusal) -> Judged {
     Judged::Refused { problems, kind: format!("a file of {}, which cannot be packed with it", model.model) }
+}
+
+/// Problems that a library lists, counted by the reader that the library has where it lists the same; otherwise a line each.
+fn counted(file: &str, text: &str, listed: &str) -> Refusal {
+    let read = [Spacecraft::from_toml(file, text).err(), Spinner::parse(file, text).err()];
+    let mut known = read.into_iter().flatten().map(refusal);
+    known.find(|it| it.text == listed).unwrap_or_else(|| {
+        let lines = listed.lines().filter(|line| !line.starts_with(char::is_whitespace));
+        Refusal { text: listed.to_owned(), count: lines.count().max(1) }
+    })
 }
 
 /// The file without its start values, if it has any.

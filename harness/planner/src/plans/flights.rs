@@ -80,10 +80,15 @@ pub(super) struct SimulatedMission {
 }
 
 impl SimulatedMission {
-    /// Opens a mission; values that win over its own as for `--set`.
-    pub(super) fn open(file: &Path, template: Option<&Path>, set: &[String]) -> Result<Self, Failure> {
+    /// Opens a mission, which messages name by its second path; values that win over its own as for `--set`.
+    pub(super) fn open(
+        [path, file]: [&Path; 2],
+        template: Option<&Path>,
+        set: &[String],
+    ) -> Result<Self, Failure> {
         let run = Run {
-            fmu: file.to_owned(),
+            fmu: path.to_owned(),
+            origin: Some(file.to_owned()),
             template: template.map(Path::to_owned),
             set: set.to_vec(),
             ..Run::default()

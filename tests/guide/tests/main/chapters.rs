@@ -100,6 +100,9 @@ fn every_key_of_every_file_is_reported_of() {
         ("mission", &["mission.md"]),
         ("timeline", &["timeline.md"]),
         ("ephemeris", &["ephemeris.md"]),
+        ("campaign", &["campaign.md"]),
+        ("plan", &["plan.md"]),
+        ("leg", &["leg.md"]),
     ] {
         let pages: String =
             chapters.iter().map(|name| fs::read_to_string(book.join(name)).unwrap()).collect();

@@ -8,7 +8,7 @@ fn parsed(text: &str) -> Result<PlanFile, String> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("mission.toml"), "stop = 1\n").unwrap();
     let file = folder.path().join("plan.toml");
-    reading::parse(&file, text.to_owned(), judge)
+    reading::parse([&file; 2], text.to_owned(), judge).map_err(String::from)
 }
 
 #[test]

@@ -3,11 +3,7 @@
 mod flights;
 mod picture;
 
-use std::{
-    cell::RefCell,
-    path::{Path, PathBuf},
-    time::Instant,
-};
+use std::{cell::RefCell, path::Path, time::Instant};
 
 use ::files::{OutputFolder, Scratch};
 use files::outcome::{self, Answer, Outcome};
@@ -123,7 +119,7 @@ impl<'a> LegMission<'a> {
     }
 
     fn text(&self, folder: &Path, velocity_m_s: &[f64]) -> Result<String, Failure> {
-        let mut document: DocumentMut = mission_text::moved(&self.mission.file, folder)?;
+        let mut document: DocumentMut = mission_text::moved(&self.mission.path, folder)?;
         let mut zero_epoch_s = self.mission.epoch_s().map(|at| at.it);
         let mut stop_s = self.mission.stop_s();
         if let (Some(at), Some(before_s)) = (&self.file.depart.at, zero_epoch_s)
@@ -197,8 +193,6 @@ struct Prepared<'a> {
     of_leg: LegMission<'a>,
     mission: SimulatedMission,
     arrival_s: f64,
-    /// File that the mission with the leg's start was written to.
-    begun: PathBuf,
 }
 
 impl<'a> Prepared<'a> {
@@ -211,11 +205,12 @@ impl<'a> Prepared<'a> {
         let scratch = Scratch::new()?;
         // At rest it would fall into the Sun; every flight has a velocity of its own.
         let begun = scratch.write(NAMES[0], of_leg.text(scratch.path(), &[0.0; 3])?)?;
-        let in_mission = |error: Failure| file.in_mission(&error.to_string(), &begun);
-        let mission = SimulatedMission::open(&begun, template, &[]).map_err(in_mission)?;
+        let in_mission = |error: Failure| file.problem(&file.mission, &error.to_string());
+        let mission =
+            SimulatedMission::open([&begun, &file.mission.it], template, &[]).map_err(in_mission)?;
         let arrival_s = of_leg.arrival_s(mission.zero_epoch_s);
         check(file, &mission, arrival_s)?;
-        Ok(Self { of_leg, mission, arrival_s, begun })
+        Ok(Self { of_leg, mission, arrival_s })
     }
 }
 
@@ -225,8 +220,8 @@ pub fn run(options: &FilePlan) -> Outcome {
     let file = LegFile::read(&options.file)?;
     check_standing(&options.output, NAMES)?;
     let _folder = OutputFolder::create(&options.output, "--output")?;
-    let Prepared { of_leg, mission, arrival_s, begun } = Prepared::new(&file, options.template.as_deref())?;
-    let in_mission = |error: Failure| file.in_mission(&error.to_string(), &begun);
+    let Prepared { of_leg, mission, arrival_s } = Prepared::new(&file, options.template.as_deref())?;
+    let in_mission = |error: Failure| file.problem(&file.mission, &error.to_string());
     let body = file.arrive.body.it.word();
     let last = RefCell::new(String::new());
     let say = |doing: &str| {

@@ -93,7 +93,8 @@ impl Planned<'_> {
             folder.write(name, text)?;
         }
         let template = self.options.template.as_deref();
-        let mut mission = SimulatedMission::open(&folder.path().join(NAMES[1]), template, &[])?;
+        let path = folder.path().join(NAMES[1]);
+        let mut mission = SimulatedMission::open([&path, &self.mission.mission.file], template, &[])?;
         mission.rows_s = self.mission.rows_s;
         Ok((mission, folder))
     }

@@ -50,7 +50,7 @@ impl Prepared {
         let settings: Vec<String> = settings.collect();
         let in_mission = |error: Failure| file.problem(&file.mission, &error.to_string());
         let mut mission =
-            SimulatedMission::open(&file.mission.it, template, &settings).map_err(in_mission)?;
+            SimulatedMission::open([&file.mission.it; 2], template, &settings).map_err(in_mission)?;
         mission.rows_s = file.every_s;
         mission.check_downlinks().map_err(in_mission)?;
         if let Some(at) = &file.update {

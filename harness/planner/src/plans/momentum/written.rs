@@ -28,7 +28,7 @@ pub(super) fn mission(
     panels: usize,
     sets: &[(String, Vec<f64>)],
 ) -> Result<String, Failure> {
-    let mut document = mission_text::moved(&planned.mission.file, folder)?;
+    let mut document = mission_text::moved(&planned.mission.path, folder)?;
     document["timeline"] = value("timeline.toml");
     for number in 1..=panels {
         mission_text::set(&mut document, &format!("panel[{number}].control"), value("timeline"));

@@ -60,7 +60,7 @@ pub(crate) fn updated(
         ("orbit.velocity", velocity_m_s),
         ("start.momentum", momentum_n_m_s),
     ];
-    let mut document = mission_text::moved(&mission.mission.file, folder.path())?;
+    let mut document = mission_text::moved(&mission.mission.path, folder.path())?;
     for (name, vector) in vectors {
         mission_text::set(&mut document, name, mission_text::numbers(vector.as_slice()));
     }

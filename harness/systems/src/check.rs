@@ -1,12 +1,12 @@
-//! `heliotorque check` of a system: that it can be read, fits its FMUs, and has their libraries.
+//! Check of a system: that it can be read, fits its FMUs, and has their libraries.
 
 use std::path::Path;
 
+use crate::system::System;
 use fmi::conformance::Finding;
-use systems::System;
 
 /// Returns the findings of a system; its FMUs are checked one by one by themselves.
-pub(super) fn findings(path: &Path) -> Vec<Finding> {
+pub fn findings(path: &Path) -> Vec<Finding> {
     let system = match System::open(path) {
         Ok(system) => system,
         Err(error) => return vec![Finding::bad(fmi::Error::chain(&error))],

@@ -3,7 +3,7 @@
 use model_description::DefaultExperiment;
 
 /// Times of a default experiment, those that it has.
-pub(super) fn times(experiment: &DefaultExperiment) -> String {
+pub fn times(experiment: &DefaultExperiment) -> String {
     let times = [
         ("start", experiment.start_time, " s"),
         ("stop", experiment.stop_time, " s"),

@@ -1,9 +1,8 @@
-//! `--json` of `heliotorque info`: the description of an FMU or a system as one object.
+//! Description of an FMU or a system as one JSON object.
 
 use fmi::Value as StartValue;
 use model_description::{Description, VariableKind, value};
 use serde_json::{Map, Value, json};
-use systems::System;
 
 use super::causality::causality;
 
@@ -40,18 +39,13 @@ fn variables(description: &Description, positions: &[usize]) -> (Vec<Value>, Map
     (all, options)
 }
 
-/// Returns the object of an FMU's or a system's description; `system` gives components and connections.
-pub(super) fn object(
-    file: &str,
-    description: &Description,
-    positions: &[usize],
-    system: Option<&System>,
-) -> Value {
+/// Returns the object of a description, with the variables at these positions.
+pub fn object(file: &str, description: &Description, positions: &[usize]) -> Value {
     let (variables, options) = variables(description, positions);
     let experiment = description.default_experiment.map(|it| {
         json!({ "start_s": it.start_time, "stop_s": it.stop_time, "step_s": it.step_size, "tolerance": it.tolerance })
     });
-    let mut object = json!({
+    json!({
         "file": file,
         "name": description.model_name,
         "guid": description.guid,
@@ -61,15 +55,5 @@ pub(super) fn object(
         "defaultExperiment": experiment,
         "variables": variables,
         "options": options,
-    });
-    if let Some(system) = system {
-        let structure = system.structure();
-        let components = structure.components.iter().map(|it| json!({ "name": it.name, "fmu": it.source }));
-        object["components"] = components.collect();
-        let joined = structure.connections.iter();
-        let ends =
-            |it: &systems::Connection| json!({ "from": it.start.to_string(), "to": it.end.to_string() });
-        object["connections"] = joined.map(ends).collect();
-    }
-    object
+    })
 }

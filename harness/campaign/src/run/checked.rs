@@ -1,26 +1,22 @@
 //! `heliotorque check mission.toml`: whether a mission can be simulated; its first step is simulated.
 
-use campaign::run::{Prepared, Run, Settings, long_step};
+use std::path::Path;
+
 use fmi::Collector;
-use inputs::{epoch, kind::FileKind};
-use packing::{carried, check::Judged};
+use inputs::epoch;
+use packing::carried;
 
-use super::options::Check;
+use super::{Prepared, Run, Settings, long_step};
 
-/// Reads the file, packs what it names, finds every name and value in it and opens what it writes, as `run` does; then simulates
-/// the first step in this process.
-pub(super) fn judged(arguments: &Check, file: &str) -> Judged {
-    match summary(arguments) {
-        Ok((summary, warnings)) => Judged::Taken { summary: format!("{file}: ok: {summary}"), warnings },
-        Err(error) => Judged::Refused {
-            problems: fmi::Error::chain(error.as_ref()),
-            kind: FileKind::Mission.to_string(),
-        },
-    }
-}
-
-fn summary(arguments: &Check) -> Result<(String, Vec<String>), Box<dyn std::error::Error>> {
-    let run = Run { fmu: arguments.subject.clone(), template: arguments.template.clone(), ..Run::default() };
+/// Sentence on a mission and warnings, after all that `run` does before the first step, and that step in this process.
+///
+/// # Errors
+/// Refusals of the command.
+pub fn checked(
+    file: &Path,
+    template: Option<&Path>,
+) -> Result<(String, Vec<String>), Box<dyn std::error::Error>> {
+    let run = Run { fmu: file.to_owned(), template: template.map(Path::to_owned), ..Run::default() };
     let Prepared { simulated, subject, settings, .. } = &Prepared::new(&run)?;
     let Settings { times, requested, limits, sets, positions, inputs, .. } = settings;
     let mut rows = Collector::new(subject.description(), positions);
