@@ -46,6 +46,7 @@ mod reals {
 
     use serde::{Deserialize, Deserializer, Serializer, de::Error};
 
+    #[expect(clippy::ptr_arg, reason = "serde hands over the field")]
     pub(super) fn serialize<S: Serializer>(reals: &Cow<'_, [f64]>, to: S) -> Result<S::Ok, S::Error> {
         let mut bytes = vec![0; size_of_val(&**reals)];
         let (places, _) = bytes.as_chunks_mut();
