@@ -9,7 +9,7 @@ use super::tables::Checked;
 use crate::home;
 
 macro_rules! paths {
-    ($($(#[$about:meta])* $name:ident = $complete:expr;)+) => {$(
+    ($($(#[$about:meta])* $name:ident = |$folder:ident, $written:ident, $at:pat_param| $complete:expr;)+) => {$(
         $(#[$about])*
         #[derive(Clone, Debug, Deserialize, schemars::JsonSchema)]
         #[serde(transparent)]
@@ -22,8 +22,8 @@ macro_rules! paths {
                     at.report("an empty string", "the path of a file");
                     return;
                 }
-                let complete: fn(&Path, &str, &Place<'_>) -> PathBuf = $complete;
-                self.1 = complete(folder, &self.0, at);
+                let ($folder, $written, $at) = (folder, self.0.as_str(), at);
+                self.1 = $complete;
             }
         }
 
