@@ -1,17 +1,31 @@
-"""Running `heliotorque study` as a user would, and reading vectors and attitudes from what it leaves."""
+"""Running a study as a user would, and reading vectors and attitudes from what it leaves."""
 
 import csv
 import os
+import pathlib
+import re
 import subprocess
+import sys
 
 import numpy as np
 
+STUDIES = pathlib.Path(__file__).parents[2] / "harness" / "studies"
 
-def study(heliotorque, dist, folder, name, threads, *options):
-    """What the study prints and the content of the files it leaves, by name."""
+
+def program(heliotorque, dist, folder, name, *options):
+    """A study as a command."""
+    paths = ["--heliotorque", heliotorque, "--dist", dist, "--output", folder]
+    return [sys.executable, STUDIES / f"{name}.py", "--quiet", *paths, *options]
+
+
+def study(heliotorque, dist, folder, name, cores, *options):
+    """What the study prints and the content of the files it leaves, by name; `momentum/table2` is `momentum/tables --table 2`."""
+    if table := re.fullmatch("momentum/table([2-5])", name):
+        name, options = "momentum/tables", (*options, "--table", table[1])
+    allowed = sorted(os.sched_getaffinity(0))[:cores]
     run = subprocess.run(
-        [heliotorque, "study", name, "--quiet", "--dist", dist, "--output", folder, *options],
-        capture_output=True, text=True, encoding="utf-8", env=os.environ | {"RAYON_NUM_THREADS": str(threads)},
+        program(heliotorque, dist, folder, name, *options),
+        capture_output=True, text=True, encoding="utf-8", preexec_fn=lambda: os.sched_setaffinity(0, allowed),
     )
     assert run.returncode == 0, run.stderr
     return run.stdout, {file.name: file.read_text(encoding="utf-8") for file in folder.iterdir()}

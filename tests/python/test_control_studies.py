@@ -1,4 +1,4 @@
-"""`heliotorque study control/*`: attitudes, momenta and modes computed again with numpy from the histories.
+"""Studies `control/*`: attitudes, momenta and modes computed again with numpy from the histories.
 
 The histories carry the true attitude (EME2000 to body) and rate of every sample and, by study, wheels, Sun, commands.
 """
@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from fmpy import read_model_description
 
-from studies import attitude, table, vector
+from studies import attitude, program, table, vector
 
 BORESIGHT = np.array([0.0, -1.0, 0.0])
 
@@ -119,7 +119,7 @@ def test_full_wheels_stop_the_slew_until_a_dump_frees_them(slew, plant, case, le
 
 
 def run(heliotorque, dist, folder, name, *options):
-    command = [heliotorque, "study", name, "--quiet", "--dist", dist, "--output", folder, *options]
+    command = program(heliotorque, dist, folder, name, *options)
     return subprocess.run(command, capture_output=True, text=True, encoding="utf-8")
 
 

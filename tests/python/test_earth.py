@@ -292,7 +292,7 @@ def test_the_study_of_a_day_is_what_fmpy_simulates(studied, cubesat):
         printed = [float(cell) for cell in line.replace(effect, "", 1).split()]
         expected = [sizes[0].mean() * 1e6, sizes[0].max() * 1e6, sizes[1][-1] * 1e3]
         assert np.abs(np.array(printed) - expected).max() < 0.000_51
-    assert files["day.svg"].startswith("<svg")
+    assert "<svg" in files["day.svg"]
 
 
 def test_the_study_of_heights_follows_what_each_torque_depends_on(studied):
@@ -317,4 +317,4 @@ def test_the_study_of_heights_follows_what_each_torque_depends_on(studied):
     share = excess[k - 1] / (excess[k - 1] - excess[k])
     crossing_km = np.exp(np.interp(share, [0.0, 1.0], np.log(height_km[k - 1 : k + 1])))
     assert f"up to {crossing_km:.0f} km" in text
-    assert files["torques.svg"].startswith("<svg")
+    assert "<svg" in files["torques.svg"]

@@ -1,4 +1,4 @@
-"""`heliotorque study flyby/*`: paper 003's numbers typed a second time, hyperbolas in closed form, the aim by FMPy."""
+"""Studies `flyby/*`: paper 003's numbers typed a second time, hyperbolas in closed form, the aim by FMPy."""
 
 import re
 

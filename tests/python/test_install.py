@@ -59,12 +59,11 @@ def test_an_installed_program_works_anywhere(heliotorque, tmp_path, options):
         (("pack", "--spacecraft", "my.toml", "--name", "My"), "My.fmu: My, "),
         (("check", "My.fmu", "--static"), "0 failed"),
         (("plan", "spin", "--output", "turn"), f"Re-simulated through {shared / 'SpinPlant.fmu'}"),
-        (("study", "spin/figure3"), "Nutation after a 2 deg manoeuvre"),
     ]:
         ran = run(*arguments)
         assert ran.returncode == 0 and expected in ran.stdout, (arguments, ran.stdout, ran.stderr)
     # Results are left here, not beside the program.
-    assert list((folder / "spin" / "figure3").glob("*.csv")) and (folder / "turn" / "burn.csv").exists()
+    assert (folder / "turn" / "burn.csv").exists()
     assert listed == {str(path) for path in prefix.rglob("*") if path.is_file()}
 
 

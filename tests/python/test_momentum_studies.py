@@ -1,4 +1,4 @@
-"""`heliotorque study momentum/*` runs what FMPy runs, and its verdicts follow from its numbers."""
+"""Studies `momentum/*` run what FMPy runs, and their verdicts follow from their numbers."""
 
 import itertools
 import pathlib
@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from simulation import DAY_S, PAPER, PAPER_COUNTS, dump_times, simulate, vector
-from studies import study, table, vector as columns
+from studies import program, study, table, vector as columns
 
 # As the study writes its rows.
 PAPER_CELLS = {
@@ -443,6 +443,6 @@ def test_authority_of_other_spacecraft(heliotorque, dist, tmp_path):
     ("momentum/authority", ("--spacecraft", RESOURCES / "ace.toml"), "ace.toml:"),
 ])
 def test_what_a_study_does_not_take_is_named(heliotorque, dist, tmp_path, name, options, said):
-    command = [heliotorque, "study", name, "--quiet", "--dist", dist, "--output", tmp_path, *options]
+    command = program(heliotorque, dist, tmp_path, name, *options)
     run = subprocess.run(command, capture_output=True, text=True, encoding="utf-8")
     assert run.returncode == 2 and said in run.stderr, run.stderr

@@ -1,4 +1,4 @@
-"""`heliotorque study pointing/*`: lines and ellipsoids, quaternions and scans computed again with numpy from the CSV files.
+"""Studies `pointing/*`: lines and ellipsoids, quaternions and scans computed again with numpy from the CSV files.
 
 The files carry position, velocity and Sun (EME2000, from the planet's centre) and the commanded quaternion of every sample.
 """
@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from fmpy import read_model_description
 
-from studies import attitude, table, unit, vector
+from studies import attitude, program, table, unit, vector
 
 TRIAXIAL_M = np.array([2_440_530.0, 2_439_280.0, 2_438_260.0])
 # 2009-04-06 00:00 TDB in seconds past J2000.
@@ -311,7 +311,7 @@ def test_the_earth_goes_where_the_slew_about_the_sun_line_takes_it(transition):
 
 def test_only_leaves_the_cases_named(heliotorque, dist, tmp_path):
     run = subprocess.run(
-        [heliotorque, "study", "pointing/limb", "--only", "azimuth 90", "--quiet", "--dist", dist, "--output", tmp_path],
+        program(heliotorque, dist, tmp_path, "pointing/limb", "--only", "azimuth 90"),
         capture_output=True, text=True, encoding="utf-8",
     )
     assert run.returncode == 0, run.stderr

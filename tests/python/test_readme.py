@@ -491,7 +491,8 @@ def test_every_client_that_works_has_a_test_with_every_model():
     for client, files in CLIENTS.items():
         text = "".join((TESTS / file).read_text(encoding="utf-8") for file in files)
         assert all(model in text for model in MODELS), client
-    pins = (TESTS / "python" / "requirements.txt").read_text(encoding="utf-8").lower()
+    files = (ROOT / "harness" / "studies" / "requirements.txt", TESTS / "python" / "requirements.txt")
+    pins = "".join(file.read_text(encoding="utf-8") for file in files).lower()
     assert "fmpy==0.3.32" in pins.replace("[complete]", "") and "libcosimpy==0.0.6" in pins
 
 

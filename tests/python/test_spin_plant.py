@@ -10,7 +10,7 @@ import pytest
 from fmpy import read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
 
-from studies import table
+from studies import program, table
 
 REPOSITORY = pathlib.Path(__file__).parents[2]
 @pytest.fixture(scope="module")
@@ -72,7 +72,7 @@ def test_a_plan_that_the_fmu_does_not_simulate_as_foreseen_is_no_plan(heliotorqu
 
 
 def study(heliotorque, name, dist, output):
-    command = [str(heliotorque), "study", f"spin/{name}", "--quiet", "--dist", str(dist), "--output", str(output)]
+    command = program(heliotorque, dist, output, f"spin/{name}")
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 

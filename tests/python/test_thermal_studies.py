@@ -1,4 +1,4 @@
-"""`heliotorque study thermal/*`: paper 004's tables and figures, its numbers typed from the paper a second time."""
+"""Studies `thermal/*`: paper 004's tables and figures, its numbers typed from the paper a second time."""
 
 import pytest
 

@@ -7,7 +7,7 @@ use std::time::Instant;
 use crate::build::{self, Built};
 use crate::shell::{Outcome, cargo, command, need, output, root, run};
 use crate::test::compile_c;
-use crate::{dist, python};
+use crate::{dist, python, studies};
 
 /// Kernel benchmarks: examples of `physics`, built as the library is.
 const EXAMPLES: &[&str] = &["bench_solar", "bench_radiation"];
@@ -351,11 +351,8 @@ fn spacecraft_folders(scratch: &Path) -> Result<[PathBuf; 2], String> {
 fn study(built: &Built) -> Outcome {
     let folder = build::scratch("bench")?.join("study");
     let seconds = median_s(
-        command(&built.heliotorque)
-            .args(["study", "momentum/table2", "--quiet", "--only", "to 0.9", "--dist"])
-            .arg(root().join("dist"))
-            .arg("--output")
-            .arg(&folder),
+        studies::program(built, "momentum/tables", &folder)?
+            .args(["--table", "2", "--only", "to 0.9", "--quiet"]),
     )?;
     println!("bench study_momentum_table2_30_simulations {seconds:.2} s");
     Ok(())

@@ -1,4 +1,4 @@
-//! `cargo xtask demo | test [--long | --all-platforms | NAME] | bless | env | dist | wheel | install | bench [--against FOLDER] [PART...] | lines | guide | notices`: the project's own chores. No dependencies; spawns cargo and python.
+//! `cargo xtask demo | test [--long | --all-platforms | NAME] | study NAME|list|all | bless | env | dist | wheel | install | bench [--against FOLDER] [PART...] | lines | guide | notices`: the project's own chores. No dependencies; spawns cargo and python.
 
 mod archives;
 mod bench;
@@ -17,6 +17,7 @@ mod prefix;
 mod python;
 mod selected;
 mod shell;
+mod studies;
 mod systems;
 mod test;
 mod timing;
@@ -44,6 +45,9 @@ cargo xtask <task>
           HELIOTORQUE_FUZZ_SECONDS is another time per target
   test NAME
           the tests in Rust and Python that have NAME in their name, with what they need built first
+  study NAME|list|all
+          the tables and figures of the papers: Python programs of harness/studies, in an environment under target/; what follows
+          NAME is handed on: --only TEXT, --output FOLDER
   bless golden|reference|schema|mistakes|legs|guide
           write anew what tests compare with, after a change that is meant
   env     build everything, then print the variables that the tests read, as `export NAME='value'`
@@ -81,6 +85,7 @@ fn main() -> ExitCode {
             }
             Some(name) => selected::named(name),
         },
+        "study" => studies::study(arguments.get(1..).unwrap_or_default()),
         "bless" => selected::bless(option.unwrap_or_default()),
         "env" => test::print_environment(),
         "dist" => match option {
@@ -104,7 +109,7 @@ fn main() -> ExitCode {
             Ok(())
         }
         other => Err(format!(
-            "unknown task `{other}`; there are demo, test, bless, env, dist, wheel, install, bench, lines, guide and notices"
+            "unknown task `{other}`; there are demo, test, study, bless, env, dist, wheel, install, bench, lines, guide and notices"
         )),
     };
     match outcome {
@@ -126,12 +131,6 @@ fn timed(task: fn() -> Outcome) -> Outcome {
 fn demo() -> Outcome {
     let built = dist::dist()?;
     let folder = shell::root().join("dist").join("demo");
-    shell::run(
-        shell::command(&built.heliotorque)
-            .args(["study", "momentum/table2", "--only", "4 N.m.s"])
-            .arg("--dist")
-            .arg(shell::root().join("dist"))
-            .arg("--output")
-            .arg(&folder),
-    )
+    let only = ["--table", "2", "--only", "4 N.m.s"];
+    shell::run(studies::program(&built, "momentum/tables", &folder)?.args(only))
 }

@@ -5,9 +5,9 @@ use std::process::Command;
 
 use crate::shell::{self, command, output, root, run};
 
-/// Python interpreter of the tests' environment, set up on first use and again when the pins change.
+/// Python interpreter of the environment of studies and tests, set up on first use and again when the pins change.
 pub(crate) fn interpreter() -> Result<PathBuf, String> {
-    environment("python", &root().join("tests/python/requirements.txt"))
+    environment("python", &["harness/studies/requirements.txt", "tests/python/requirements.txt"])
 }
 
 /// `pytest` in that environment, which leaves no compiled files among the tests.
@@ -19,19 +19,22 @@ pub(crate) fn pytest() -> Result<Command, String> {
 
 /// Python interpreter with Basilisk, which the benchmarks alone need; its packages conflict with the tests'.
 pub(crate) fn basilisk() -> Result<PathBuf, String> {
-    environment("basilisk", &root().join("tests/python/basilisk-requirements.txt"))
+    environment("basilisk", &["tests/python/basilisk-requirements.txt"])
 }
 
 /// Folder with the programs `cargo-zigbuild` and `python -m ziglang`, which link for an older glibc.
 pub(crate) fn zig_programs() -> Result<PathBuf, String> {
-    let python = environment("zig", &root().join("xtask/zig-requirements.txt"))?;
+    let python = environment("zig", &["xtask/zig-requirements.txt"])?;
     python.parent().map(Path::to_path_buf).ok_or_else(|| format!("{} stands in no folder", python.display()))
 }
 
-/// The interpreter of a virtual environment under `target/` with pinned packages.
-fn environment(name: &str, requirements: &Path) -> Result<PathBuf, String> {
-    let expected = std::fs::read_to_string(requirements)
-        .map_err(|error| format!("cannot read {}: {error}", requirements.display()))?;
+/// The interpreter of a virtual environment under `target/` with the packages that these files pin.
+fn environment(name: &str, requirements: &[&str]) -> Result<PathBuf, String> {
+    let files = requirements.iter().map(|file| root().join(file));
+    let read = |file: PathBuf| {
+        std::fs::read_to_string(&file).map_err(|error| format!("cannot read {}: {error}", file.display()))
+    };
+    let expected = files.clone().map(read).collect::<Result<String, String>>()?;
     let folder = shell::target().join(name);
     let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
     let stamp = folder.join("requirements.txt");
@@ -39,9 +42,10 @@ fn environment(name: &str, requirements: &Path) -> Result<PathBuf, String> {
         return Ok(python);
     }
     run(command("python3").args(["-m", "venv", "--clear"]).arg(&folder))?;
+    let files = files.flat_map(|file| ["-r".into(), file.into_os_string()]);
     run(command(&python)
-        .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r"])
-        .arg(requirements))?;
+        .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"])
+        .args(files))?;
     std::fs::write(&stamp, expected).map_err(|error| format!("cannot write {}: {error}", stamp.display()))?;
     Ok(python)
 }

@@ -12,7 +12,7 @@ use isolation::{Bounds, Relayed, Request, SMALL, interrupt, large};
 
 use crate::{
     check, compare, completions, draw, ephemeris, info, manual, map, new, pack, plan, plot, refit,
-    run as simulation, size, study, sweep, usage, wire,
+    run as simulation, size, sweep, usage, wire,
 };
 
 /// Spacecraft disturbance torque and momentum as FMUs: show, check and simulate them, pack your own.
@@ -57,9 +57,6 @@ enum Command {
     Plan(plan::Plan),
     /// Fit centre of mass and solar.scale of a mission to a history of momentum
     Refit(refit::Refit),
-    /// Run a study of the papers, or list them
-    #[command(hide = true)]
-    Study(study::Study),
     /// Print what a shell needs to complete commands and options
     #[command(hide = true)]
     Completions(completions::Completions),
@@ -146,7 +143,6 @@ fn loading(command: &Command) -> Option<Relayed> {
         Command::Plan(plan::Plan { spin: Some(plan::SpinCommand::Spin(it)), .. }) => {
             (of_template(it.options.template.as_ref()), it.patience, large(1))
         }
-        Command::Study(it) => (it.name.clone(), it.patience, large(1)),
         _ => return None,
     };
     Some(Relayed { name, bounds: Bounds::of_calls(patience.timeout), limits })
@@ -178,7 +174,6 @@ fn carry_out(mut command: Command) -> Outcome {
         Command::Completions(arguments) => completions::run(&arguments, &program()),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Refit(arguments) => refit::run(&arguments),
-        Command::Study(arguments) => study::run(&arguments),
     }
 }
 

@@ -22,7 +22,6 @@ mod refit;
 mod run;
 mod schema;
 mod size;
-mod study;
 mod sweep;
 mod usage;
 mod wire;

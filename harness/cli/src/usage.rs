@@ -17,8 +17,9 @@ const GROUPS: [(&str, &[&str]); 3] = [
 ];
 
 /// Earlier forms: the command, a word of its arguments (`""` for the command itself), and the form that replaces it.
-const EARLIER: [(&str, &str, &str); 13] = [
+const EARLIER: [(&str, &str, &str); 14] = [
     ("schema", "", "heliotorque new --schema KIND"),
+    ("study", "", "cargo xtask study NAME` of the sources, which runs `harness/studies/<subject>/<name>.py"),
     ("plan", "momentum", "heliotorque plan FILE"),
     ("plan", "flyby", "heliotorque plan FILE"),
     ("plan", "leg", "heliotorque plan FILE"),

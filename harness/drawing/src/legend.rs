@@ -178,10 +178,12 @@ mod tests {
 
     #[test]
     fn a_title_has_its_own_room_in_the_first_row() {
-        let few = Panel::new("").titled("by approximation").with([Series::line("a", vec![])]);
+        let few = Panel { title: "by approximation".to_owned(), ..Panel::default() };
+        let few = few.with([Series::line("a", vec![])]);
         assert_eq!(Legend::new(&few, false).height(), ROW_HEIGHT);
         let wide = "a".repeat(90);
-        let with = |title: &str| Panel::new("").titled(title).with([Series::line(wide.clone(), vec![])]);
+        let with = |title: &str| Panel { title: title.to_owned(), ..Panel::default() };
+        let with = |title: &str| with(title).with([Series::line(wide.clone(), vec![])]);
         assert_eq!(Legend::new(&with(""), false).height(), ROW_HEIGHT);
         assert_eq!(Legend::new(&with("sampled every 8 spins"), false).height(), 2.0 * ROW_HEIGHT);
     }

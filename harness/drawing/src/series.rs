@@ -152,12 +152,6 @@ impl Panel {
         Self { y_label: y_label.into(), ..Self::default() }
     }
 
-    /// With a title.
-    #[must_use]
-    pub fn titled(self, title: impl Into<String>) -> Self {
-        Self { title: title.into(), ..self }
-    }
-
     /// With these lines.
     #[must_use]
     pub fn with(self, series: impl IntoIterator<Item = Series>) -> Self {

@@ -24,8 +24,9 @@ fn summary(arguments: &Check) -> Result<(String, Vec<String>), Box<dyn std::erro
     let Prepared { simulated, subject, settings, .. } = &Prepared::new(&run)?;
     let Settings { times, requested, limits, sets, positions, inputs, .. } = settings;
     let mut rows = Collector::new(subject.description(), positions);
-    // Ended after the first step.
-    let (_, messages) = settings.simulate_into(subject, &simulated.run, (&mut |_| false, None), &mut rows)?;
+    let mut end_after_first_step = |_| false;
+    let (_, messages) =
+        settings.simulate_into(subject, &simulated.run, (&mut end_after_first_step, None), &mut rows)?;
     let short = terminal::short;
     let begin = simulated.mission.as_ref().and_then(|mission| epoch::date(mission.epoch_s()?.it));
     let begin = begin.unwrap_or_else(|| format!("{} s", short(times.start_s)));

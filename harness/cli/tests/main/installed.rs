@@ -84,11 +84,6 @@ fn a_program_with_its_library_beside_it_works_in_an_empty_folder() {
         let (status, reported) = run_in(&folder, &at("links").join(&name), &["check", "ace.toml"]);
         assert!(status == Some(0), "{reported}");
     }
-    let (status, reported) = run_in(&folder, &program, &["study", "spin/figure3"]);
-    assert!(
-        status == Some(2) && reported.contains(shown(own.parent().unwrap())) && reported.contains("--dist"),
-        "{reported}"
-    );
 }
 
 #[test]

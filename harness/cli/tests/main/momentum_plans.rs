@@ -485,6 +485,18 @@ fn downlinks_of_an_orbit_phase_hold_the_momentum() {
         assert_eq!(was[4], row[4], "a downlink elsewhere");
         assert!(row[4] != 0.0 || (was[6] - row[6]).abs() < 1e-9, "science in another attitude");
     }
+    // Commands end in the last minute of their downlinks.
+    let (mission, minutes) = (folder.join("orbit.toml"), folder.join("minutes.csv"));
+    let by_minute = ["run", shown(&mission), "--step", "1min", "--record", "downlink.active"];
+    let rest = ["--output", shown(&minutes), "--template", shown(&template)];
+    run(&[&by_minute[..], &rest].concat(), 0);
+    let active = columns(&minutes, &["downlink.active"]).concat();
+    let windows = fs::read_to_string(folder.join("out/windows.csv")).unwrap();
+    for window in windows.lines().filter(|line| line.contains(",free,")) {
+        let stop_s: f64 = window.split(',').nth(1).unwrap().parse().unwrap();
+        let minute = (stop_s / 60.0) as usize;
+        assert!(stop_s % 60.0 == 0.0 && active[minute..minute + 2] == [1.0, 0.0], "{window}");
+    }
     // What does not count there is refused with its line.
     let printed = plan(folder, &template, "mission = \"orbit.toml\"\nfreeze = 0\nwindmill = \"2 deg\"\n", 2);
     says(&printed, &["plan.toml:3: windmill: found it, allowed: none in an orbit phase"]);

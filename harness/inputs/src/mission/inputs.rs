@@ -15,7 +15,7 @@ use crate::{
 };
 
 /// Inputs over time, as they are written.
-#[derive(Clone, Debug, Deserialize, schemars::JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum InputsKey {
     /// A CSV file.
@@ -23,7 +23,6 @@ pub(crate) enum InputsKey {
     /// Columns by name.
     Columns(Named<Column>),
     /// Anything else.
-    #[schemars(skip)]
     Other(Written),
 }
 
@@ -134,15 +133,19 @@ pub(super) fn check_time(written: &Moment, at: &Place<'_>, zero_epoch_s: Option<
     }
 }
 
-impl schemars::JsonSchema for Column {
+impl schemars::JsonSchema for InputsKey {
     fn schema_name() -> std::borrow::Cow<'static, str> {
-        "Column".into()
+        "Inputs".into()
     }
 
     fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
         schemars::json_schema!({
-            "description": "A value that stays, or rows of a time and a value: [[0, \"65 deg\"], [\"5 d\", \"60 deg\"]].",
-            "type": ["number", "string", "boolean", "array"]
+            "description": "A CSV file, or inputs by name.",
+            "type": ["string", "object"],
+            "additionalProperties": {
+                "description": "A value that stays, or rows of a time and a value: [[0, \"65 deg\"], [\"5 d\", \"60 deg\"]].",
+                "type": ["number", "string", "boolean", "array"]
+            }
         })
     }
 }

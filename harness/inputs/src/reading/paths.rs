@@ -46,9 +46,9 @@ paths! {
     OutputPath = |folder, name, _| if name == "-" { name.into() } else { folder.join(name) };
 }
 
-/// Reports a file that is missing.
+/// Reports a file that is missing, unless the key itself is refused.
 fn found(path: PathBuf, at: &Place<'_>) -> PathBuf {
-    if !path.exists() {
+    if !path.exists() && !at.has_reported() {
         let found = format_args!("{}, which is not there", path.display());
         at.report(found, "a file; paths are relative to this one's folder");
     }

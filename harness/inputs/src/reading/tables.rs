@@ -39,9 +39,9 @@ macro_rules! checks {
     } $(rules { $($rule:tt)+ })?)+) => {$(
         impl $crate::reading::Checked for $table {
             fn check(&mut self, at: &physics::toml::Place<'_>, folder: &std::path::Path) {
+                at.rules(<$table as physics::toml::Table>::RULES);
                 $($(self.$key.get_or_insert_with(|| <$type>::from($default));)?)+
                 $(self.$key.check(&at.key(stringify!($key).trim_start_matches("r#")), folder);)+
-                at.rules(<$table as physics::toml::Table>::RULES);
             }
         }
     )+};

@@ -8,7 +8,7 @@
 //! Error: of the second order in the miss, by its share of B.
 //! Reference: paper 003 gives no definition of its penalty; this one is that of a trajectory that must be met again.
 
-use nalgebra::{Matrix3, Matrix3x2, Matrix6x2, Vector2, Vector3};
+use nalgebra::{Matrix3, Matrix3x2, Matrix6x2, Vector3};
 
 use super::{encounter::PredictedPath, flight::ForceModel, sensitivity::Sensitivity};
 
@@ -52,16 +52,6 @@ impl MissCost {
             .ok_or("the date: no velocity at the manoeuvre leads to every place there")?;
         let [place, velocity] = [0, 3].map(|row| off.fixed_rows::<3>(row).into_owned());
         Ok(Self { by_miss_1_s: -velocity - back * block(0) * place })
-    }
-
-    /// The manoeuvre for a miss of B.T and B.R in m, EME2000, in m/s.
-    pub fn delta_v_m_s(&self, miss_m: [f64; 2]) -> Vector3<f64> {
-        self.by_miss_1_s * Vector2::from(miss_m)
-    }
-
-    /// Its size, in m/s.
-    pub fn cost_m_s(&self, miss_m: [f64; 2]) -> f64 {
-        self.delta_v_m_s(miss_m).norm()
     }
 }
 

@@ -239,11 +239,6 @@ impl SimulatedFlight {
         found
     }
 
-    /// Greatest |H|, in N m s, and when.
-    pub fn greatest_momentum(&self) -> (f64, f64) {
-        self.greatest(MomentumSize::Length)
-    }
-
     /// Greatest size of the momentum, in N m s, and when.
     pub fn greatest(&self, size: MomentumSize) -> (f64, f64) {
         self.rows.iter().fold((0.0, f64::NAN), |(greatest, at_s), row| {

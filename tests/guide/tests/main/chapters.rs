@@ -54,13 +54,26 @@ fn every_command_has_a_section() {
 #[test]
 fn every_study_is_reported_of() {
     let page = fs::read_to_string(project().join("docs").join("src").join("studies.md")).unwrap();
-    let list = heliotorque(&["study", "list"]);
     let mut studies = 0;
-    for word in list.split_whitespace().filter(|word| word.contains('/') && !word.contains('.')) {
-        let is_name = word.chars().all(|c| c.is_ascii_alphanumeric() || c == '/' || c == '-');
-        if is_name && word.chars().next().is_some_and(|c| c.is_ascii_lowercase()) {
-            assert!(page.contains(&format!("`{word}`")), "studies.md does not name {word}");
-            studies += 1;
+    let subjects = fs::read_dir(project().join("harness").join("studies")).unwrap();
+    for subject in subjects.map(|entry| entry.unwrap().path()).filter(|path| path.is_dir()) {
+        for file in fs::read_dir(&subject).unwrap().map(|entry| entry.unwrap().path()) {
+            let is_program = file.extension().is_some_and(|it| it == "py")
+                && fs::read_to_string(&file)
+                    .unwrap()
+                    .lines()
+                    .next_back()
+                    .unwrap_or_default()
+                    .contains("main(");
+            if is_program {
+                let [subject, name] =
+                    [&subject, &file].map(|path| path.file_stem().unwrap().to_str().unwrap());
+                assert!(
+                    page.contains(&format!("`{subject}/{name}`")),
+                    "studies.md does not name {subject}/{name}"
+                );
+                studies += 1;
+            }
         }
     }
     assert!(studies > 15, "{studies}");

@@ -21,7 +21,7 @@ pub fn heliotorque(arguments: &[&str]) -> String {
 }
 
 /// Commands that `--help` does not list, but the guide has.
-const HIDDEN: [&str; 3] = ["completions", "man", "study"];
+const HIDDEN: [&str; 2] = ["completions", "man"];
 
 /// The subcommands that `--help` lists in its groups, and the hidden ones.
 pub fn subcommands() -> Vec<String> {

@@ -128,7 +128,6 @@ fn commands_that_load(scratch: &TempDir) -> Option<Vec<Vec<String>>> {
         ("LIBRARY", library("fmu", "Hostile")),
         ("CRAFT", at("my.toml")),
         ("MISSION", at("m.toml")),
-        ("FOLDER", scratch.path().to_owned()),
         ("OUT", at("out.fmu")),
         ("ROWS", at("out.csv")),
         ("TOML", at("out.toml")),
@@ -146,7 +145,6 @@ fn commands_that_load(scratch: &TempDir) -> Option<Vec<Vec<String>>> {
         "run MISSION --template PLANT --output ROWS",
         "ephemeris --template PLANT --start 2011-04-06TDB --stop 2011-05-06TDB --output TOML",
         "plan spin --template SPIN",
-        "study momentum/table2 --dist FOLDER --output OUT",
     ];
     let place = |word: &str| {
         let found = places.iter().find(|(name, _)| *name == word);

@@ -1,5 +1,7 @@
 //! The manoeuvre leads back: flights by another integrator, with the miss and with it.
 
+use nalgebra::Vector2;
+
 use super::*;
 use crate::flyby::test_flight::{DAY_S, LONG_S, Leg, fixed_in_the_body, force_model, packed, unpacked};
 use crate::momentum::test_spacecraft::sunlit;
@@ -34,7 +36,7 @@ fn the_manoeuvre_leads_back_to_the_nominal_place() {
         let (missed, without_m) = propagated(shift_m, Vector3::zeros());
         assert!((missed.x - intercept.x - miss_m[0]).hypot(missed.y - intercept.y - miss_m[1]) < 0.05);
         assert!((missed.z - intercept.z).abs() < 1e-3);
-        let (_, with_m) = propagated(shift_m, cost.delta_v_m_s(miss_m));
+        let (_, with_m) = propagated(shift_m, cost.by_miss_1_s * Vector2::from(miss_m));
         let [left_m, whole_m] = [with_m, without_m].map(|it| (it - nominal_m).norm());
         assert!(left_m < 2e-3 * whole_m && whole_m > 1e3, "{left_m} of {whole_m} m");
     }

@@ -7,6 +7,7 @@ use crate::momentum::{
     encountered::Encountered,
     in_force::ActiveControls,
     plan::{MomentumPlan, plan},
+    simulated::MomentumSize,
     target::Target,
     test_spacecraft::{DAY_S, row, simulated, sunlit, task},
     torque::Controls,
@@ -182,7 +183,7 @@ fn a_flight_that_alternates_is_within_its_own_reach() {
         row.momentum_n_m_s = momentum;
         momentum += load.mean(1.0).0 * 7200.0;
     }
-    task.limit.momentum_n_m_s = 1.02 * simulated.greatest_momentum().0;
+    task.limit.momentum_n_m_s = 1.02 * simulated.greatest(MomentumSize::Length).0;
     let found = reachable(&task, &sunlit, &simulated, &mut Silent).unwrap();
     println!("{found:?}");
     let all: Vec<Vector2<f64>> = found.polygon_m.iter().map(|corner| Vector2::from(*corner)).collect();

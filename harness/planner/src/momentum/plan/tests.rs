@@ -143,7 +143,7 @@ fn no_plan_of_the_same_windows_has_less_tilt() {
     let simulated = simulated(&sunlit, 20, 0.4);
     let mut integrated = Integrated { sunlit, simulated, more_n_m: Vector3::zeros(), echo: 0.0, flights: 0 };
     let flight = integrated.simulate(&less, &[]).unwrap();
-    assert!(flight.greatest_momentum().0 > found.greatest_n_m_s()[1]);
+    assert!(flight.greatest(MomentumSize::Length).0 > found.greatest_n_m_s()[1]);
 }
 
 const DAYS: usize = 7;

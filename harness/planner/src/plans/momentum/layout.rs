@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use inputs::{plan::PlanFile, reading::At};
+use inputs::{plan::PlanFile, reading::At, variables::numbers};
 use physics::constants::DAY_S;
 
 use super::timeline::MissionTimeline;
@@ -14,7 +14,7 @@ use crate::{
         torque::SunlitSpacecraft,
         windows::{ControlBounds, Layout},
     },
-    plans::flights::SimulatedMission,
+    plans::flights::{Requested, SimulatedMission},
 };
 
 /// Most windows of a plan.
@@ -60,6 +60,33 @@ const MAX_TILT_RAD: f64 = 1.5;
 /// Places stay so far within the keep-in zone, in rad: angles are rounded where they are written.
 const WITHIN_ZONE_RAD: f64 = 1e-4;
 
+/// Resolution of the ends of downlinks, in s.
+const END_S: f64 = 60.0;
+
+/// The downlinks of a flight, each up to the last minute in it.
+fn ended_within(mission: &SimulatedMission, simulated: &SimulatedFlight) -> Result<Vec<[f64; 2]>, Failure> {
+    let rows = &simulated.rows;
+    let last_in =
+        |stop_s: f64| rows[rows.partition_point(|row| row.time_s < stop_s).saturating_sub(1)].time_s;
+    let minutes = |[_, stop_s]: [f64; 2]| -> Vec<f64> {
+        let from_s = last_in(stop_s);
+        let count = ((stop_s - from_s) / END_S).ceil() as u32;
+        (0..count).map(|minute| from_s + END_S * f64::from(minute)).collect()
+    };
+    let found = simulated.downlinks_s();
+    let times_s: Vec<f64> = found.iter().copied().flat_map(minutes).collect();
+    let active = ["downlink.active".to_owned()];
+    let recording =
+        mission.record(&Requested { outputs: &active, at_s: Some(&times_s), ..Requested::default() })?;
+    let is_active = numbers(&recording, &active[0])?;
+    let minutes = || recording.times_s.iter().zip(&is_active);
+    let ended = found.into_iter().filter_map(|[start_s, stop_s]| {
+        let within = minutes().filter(|(at_s, is)| (start_s..stop_s).contains(*at_s) && **is != 0.0);
+        within.map(|(at_s, _)| [start_s, *at_s]).last()
+    });
+    Ok(ended.filter(|[start_s, stop_s]| stop_s > start_s).collect())
+}
+
 /// The downlinks of a mission's orbit phase.
 pub(super) fn orbit_layout(
     file: &PlanFile,
@@ -67,12 +94,8 @@ pub(super) fn orbit_layout(
     timeline: &MissionTimeline,
     simulated: &SimulatedFlight,
 ) -> Result<Layout, Failure> {
-    let rows = &simulated.rows;
     // A command ends within its downlink: the spacecraft's own turn to science follows.
-    let last_in =
-        |stop_s: f64| rows[rows.partition_point(|row| row.time_s < stop_s).saturating_sub(1)].time_s;
-    let downlinks = simulated.downlinks_s().into_iter().map(|[start_s, stop_s]| [start_s, last_in(stop_s)]);
-    let downlinks_s: Vec<[f64; 2]> = downlinks.filter(|[start_s, stop_s]| stop_s > start_s).collect();
+    let downlinks_s = ended_within(mission, simulated)?;
     if downlinks_s.is_empty() {
         return Err(file
             .problem(&file.mission, "found no downlink, allowed: a mission with downlinks to plan")

@@ -33,7 +33,7 @@ fn planning_again_within_the_guard_of_the_limit_is_never_worse() {
     assert!(first.holds && !first.is_mission);
     let own: Vec<ActiveControls> =
         first.windows.iter().map(|it| ActiveControls { at_s: it.start_s, controls: it.controls }).collect();
-    let greatest_n_m_s = first.flight.greatest_momentum().0;
+    let greatest_n_m_s = first.flight.greatest(MomentumSize::Length).0;
     for from_d in [6.0, 10.5, 14.0] {
         let layout = Layout {
             frozen_until_s: from_d * DAY_S,
@@ -114,7 +114,7 @@ fn a_plan_whose_flight_stays_below_the_limit_holds_however_far_the_model_is() {
     let (sunlit, bare) = (flies.sunlit.clone(), flies.simulated.clone());
     let mut task = task(1.0, ControlBounds::default());
     let (windows, _) = task.layout.windows(&sunlit, &bare).unwrap();
-    let unmanaged_n_m_s = flies.simulate(&windows, &[]).unwrap().greatest_momentum().0;
+    let unmanaged_n_m_s = flies.simulate(&windows, &[]).unwrap().greatest(MomentumSize::Length).0;
     task.limit.momentum_n_m_s = 1.1 * unmanaged_n_m_s;
     let span_s = f64::from(DAYS) * DAY_S;
     flies.more_n_m = Vector3::new(0.045, 0.0, 0.0) * (unmanaged_n_m_s / span_s);
