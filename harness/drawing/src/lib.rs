@@ -2,7 +2,6 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "tests make their own files"))]
 
 mod axes;
-mod bars;
 mod camera;
 mod chart;
 mod envelope;
@@ -21,7 +20,6 @@ mod tests;
 mod tornado;
 
 pub use axes::{is_drawable, round_up, tick_text, ticks};
-pub use bars::{BarChart, BarPanel};
 pub use camera::{Camera, contains};
 pub use chart::Chart;
 pub use envelope::Envelope;

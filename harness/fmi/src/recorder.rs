@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use model_description::{BaseType, Description, value::unit};
 use serde::{Deserialize, Serialize};
 
-use crate::{Column, Error, Fmu, Instance, Recording, Value};
+use crate::{Column, Error, Fmu, Instance, Recording};
 
 /// Most that a recording may take, in bytes: about ten million points of a dozen Reals.
 const MAX_BYTES: u64 = 1_000_000_000;
@@ -73,11 +73,6 @@ impl Row<'_> {
 pub trait Rows {
     /// Takes one more row.
     fn take(&mut self, row: &Row<'_>) -> Result<(), Error>;
-
-    /// Values by name that are set at the point of the row taken last, before the step that follows.
-    fn sets(&mut self) -> Vec<(String, Value)> {
-        Vec::new()
-    }
 }
 
 /// The recorded variables of one base type: their columns and value references.
@@ -216,7 +211,6 @@ impl Reader {
         }
         let (reals, texts) = (Cow::from(&self.reals), Cow::from(&texts));
         let [integers, booleans] = [&self.integers, &self.booleans].map(Cow::from);
-        rows.take(&Row { time_s, reals, integers, booleans, texts })?;
-        rows.sets().iter().try_for_each(|(name, value)| instance.set(name, value))
+        rows.take(&Row { time_s, reals, integers, booleans, texts })
     }
 }

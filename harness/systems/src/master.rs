@@ -23,8 +23,6 @@ pub enum FirstExchange {
     /// The outputs at the start, exchanged in initialization mode until they stay.
     #[default]
     Initial,
-    /// The outputs at the start, read once initialization is over: in it components are alone.
-    Separate,
     /// Zero, as for FMPy: none is read before the first step.
     Zeros,
 }

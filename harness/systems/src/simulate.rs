@@ -34,7 +34,7 @@ pub fn simulate_into(
         sets.extend(inputs.at_start(times.start_s));
     }
     let mut running = Running::start(system, way, &times, (&options.instance, options.tolerance), &sets)?;
-    record(system, &mut recorder, &mut running, times.start_s, rows)?;
+    recorder.record(running.instances(), times.start_s, rows)?;
     let steps = times.steps();
     for k in 0..steps {
         let (time_s, end_s) = (times.point_s(k), times.point_s(k + 1));
@@ -45,13 +45,13 @@ pub fn simulate_into(
         let step_s = if k + 1 == steps { end_s - time_s } else { times.step_s };
         if let Stepped::Ended(ended_s) = running.step(time_s, step_s)? {
             if ended_s > time_s {
-                record(system, &mut recorder, &mut running, ended_s, rows)?;
+                recorder.record(running.instances(), ended_s, rows)?;
             }
             return Ok((Ended::ByItself, running.messages()));
         }
         let cancelled = options.progress.as_mut().is_some_and(|goes_on| !goes_on(end_s));
         if recorded.contain(k + 1) || cancelled {
-            record(system, &mut recorder, &mut running, end_s, rows)?;
+            recorder.record(running.instances(), end_s, rows)?;
         }
         if cancelled && k + 1 < steps {
             return Ok((Ended::Cancelled, running.messages()));
@@ -59,19 +59,6 @@ pub fn simulate_into(
     }
     running.terminate()?;
     Ok((Ended::AtStop, running.messages()))
-}
-
-/// Hands one row on and sets what its taker answers.
-fn record(
-    system: &System,
-    recorder: &mut Recorder,
-    running: &mut Running,
-    time_s: f64,
-    rows: &mut dyn Rows,
-) -> Result<(), Error> {
-    recorder.record(running.instances(), time_s, rows)?;
-    let sets = own_sets(system, &rows.sets())?;
-    sets.iter().try_for_each(|(number, name, value)| running.instances()[*number].set(name, value))
 }
 
 /// Values by component and its variable's name. A connected input is refused: its value would not last.

@@ -1,6 +1,6 @@
 //! The driver: what it runs equals closed forms, and whatever stops it, what was recorded stays.
 
-use fmi::{Column, Ended, Error, InputTable, Options, Row, Rows, Value, simulate, simulate_into};
+use fmi::{Column, Ended, InputTable, Options, Value, simulate};
 
 use crate::probe;
 
@@ -53,36 +53,6 @@ fn an_input_table_drives_the_simulation() {
     // Held: sum of k/2 * 1/2 for k < 8, plus 16. With slopes the ramp is exact: 8 + 16.
     assert!((integral(false) - 23.0).abs() < 1e-12, "{}", integral(false));
     assert!((integral(true) - 24.0).abs() < 1e-12, "{}", integral(true));
-}
-
-/// Keeps what is counted and sets the input to the time, and a choice by its name.
-#[derive(Default)]
-struct Steering {
-    time_s: f64,
-    integrals: Vec<f64>,
-}
-
-impl Rows for Steering {
-    fn take(&mut self, row: &Row<'_>) -> Result<(), Error> {
-        self.time_s = row.time_s;
-        self.integrals.push(row.reals[0]);
-        Ok(())
-    }
-
-    fn sets(&mut self) -> Vec<(String, Value)> {
-        vec![("input.real".to_owned(), real(self.time_s))]
-    }
-}
-
-#[test]
-fn what_a_row_is_answered_acts_from_there_on() {
-    let Some((_folder, fmu)) = probe("AllTypes") else { return };
-    let mut rows = Steering::default();
-    let record = Some(fmu.select("output.integral").unwrap());
-    let options = Options { record_every_s: Some(1.0), record, ..over(3.0, 0.5) };
-    simulate_into(&fmu, options, &mut rows).unwrap();
-    // 0 for a second, then 1, then 2.
-    assert_eq!(rows.integrals, [0.0, 0.0, 1.0, 3.0]);
 }
 
 #[test]
