@@ -82,7 +82,7 @@ fn ended_within(mission: &SimulatedMission, simulated: &SimulatedFlight) -> Resu
     let minutes = || recording.times_s.iter().zip(&is_active);
     let ended = found.into_iter().filter_map(|[start_s, stop_s]| {
         let within = minutes().filter(|(at_s, is)| (start_s..stop_s).contains(*at_s) && **is != 0.0);
-        within.map(|(at_s, _)| [start_s, *at_s]).last()
+        within.map(|(at_s, _)| [start_s, *at_s]).next_back()
     });
     Ok(ended.filter(|[start_s, stop_s]| stop_s > start_s).collect())
 }
