@@ -27,6 +27,7 @@ const HARNESS: &[&str] = &[
     "harness/inputs",
     "harness/tables",
     "harness/campaign",
+    "harness/planner",
     "harness/cli",
     "xtask",
 ];

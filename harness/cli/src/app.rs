@@ -141,7 +141,7 @@ fn loading(command: &Command) -> Option<Relayed> {
             (of_template(reader.template.as_ref()), reader.patience, large(1))
         }
         Command::Plan(plan::Plan { spin: Some(plan::SpinCommand::Spin(it)), .. }) => {
-            (of_template(it.options.template.as_ref()), it.patience, large(1))
+            (of_template(it.template.as_ref()), it.patience, large(1))
         }
         _ => return None,
     };

@@ -13,8 +13,10 @@ pub mod momentum;
 pub mod orbit;
 pub mod plans;
 pub mod refit;
+mod simulation;
 pub mod size;
 pub mod spin;
+mod text_table;
 pub mod torque_map;
 
 pub use failure::Failure;

@@ -81,37 +81,22 @@ pub(crate) struct Map {
 impl Map {
     /// The request without the command line.
     pub(crate) fn request(&self) -> planner::map::Map {
-        let Self {
-            spacecraft,
-            distance,
-            panel_offset,
-            zone,
-            sun,
-            step,
-            source,
-            set,
-            recording,
-            output,
-            lines,
-            no_picture,
-            quiet,
-            reader,
-        } = self.clone();
+        let it = self.clone();
         planner::map::Map {
-            spacecraft,
-            template: reader.template,
-            distance,
-            panel_offset,
-            zone,
-            sun,
-            step,
-            source: source.kind(),
-            set,
-            recording,
-            output,
-            lines,
-            no_picture,
-            quiet,
+            spacecraft: it.spacecraft,
+            template: it.reader.template,
+            distance: it.distance,
+            panel_offset: it.panel_offset,
+            zone: it.zone,
+            sun: it.sun,
+            step: it.step,
+            source: it.source.kind(),
+            set: it.set,
+            recording: it.recording,
+            output: it.output,
+            lines: it.lines,
+            no_picture: it.no_picture,
+            quiet: it.quiet,
         }
     }
 }

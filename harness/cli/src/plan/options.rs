@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand};
 use inputs::values::span;
 
-use crate::patience::{Patience, Reader};
+use super::spin::SpinPlan;
+use crate::patience::Reader;
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
@@ -50,17 +51,6 @@ pub(crate) enum SpinCommand {
     Spin(Box<SpinPlan>),
 }
 
-/// `heliotorque plan spin`.
-#[derive(Clone, Debug, Args)]
-pub(crate) struct SpinPlan {
-    /// The turn
-    #[command(flatten)]
-    pub options: planner::spin::Options,
-    /// Time for the FMU
-    #[command(flatten)]
-    pub patience: Patience,
-}
-
 /// `heliotorque plan FILE`.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct FilePlan {
@@ -83,14 +73,13 @@ pub(crate) struct FilePlan {
 impl FilePlan {
     /// The request without the command line.
     pub(super) fn request(&self, reader: &Reader) -> planner::plans::options::FilePlan {
-        let Self { file, output, budget, seeds, quiet } = self.clone();
         planner::plans::options::FilePlan {
-            file,
-            output,
+            file: self.file.clone(),
+            output: self.output.clone(),
             template: reader.template.clone(),
-            budget_s: budget.unwrap_or(BUDGET_S),
-            seeds: seeds.unwrap_or(0),
-            quiet,
+            budget_s: self.budget.unwrap_or(BUDGET_S),
+            seeds: self.seeds.unwrap_or(0),
+            quiet: self.quiet,
         }
     }
 

@@ -52,17 +52,16 @@ pub(crate) struct Refit {
 impl Refit {
     /// The request without the command line.
     pub(crate) fn request(&self) -> planner::plans::refit::Refit {
-        let Self { mission, telemetry, noise, prior_center, prior_scale, output, quiet, reader } =
-            self.clone();
+        let it = self.clone();
         planner::plans::refit::Refit {
-            mission,
-            telemetry,
-            noise,
-            prior_center,
-            prior_scale,
-            output,
-            template: reader.template,
-            quiet,
+            mission: it.mission,
+            telemetry: it.telemetry,
+            noise: it.noise,
+            prior_center: it.prior_center,
+            prior_scale: it.prior_scale,
+            output: it.output,
+            template: it.reader.template,
+            quiet: it.quiet,
         }
     }
 }

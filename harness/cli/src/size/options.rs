@@ -68,35 +68,21 @@ pub(crate) struct Size {
 impl Size {
     /// The request without the command line.
     pub(crate) fn request(&self) -> planner::size::Size {
-        let Self {
-            file,
-            output,
-            margin,
-            every,
-            slew,
-            years,
-            end,
-            duration,
-            budget,
-            set,
-            json,
-            quiet,
-            reader,
-        } = self.clone();
+        let it = self.clone();
         planner::size::Size {
-            file,
-            output,
-            margin,
-            every,
-            slew,
-            years,
-            end,
-            duration,
-            budget,
-            template: reader.template,
-            set,
-            json,
-            quiet,
+            file: it.file,
+            output: it.output,
+            margin: it.margin,
+            every: it.every,
+            slew: it.slew,
+            years: it.years,
+            end: it.end,
+            duration: it.duration,
+            budget: it.budget,
+            template: it.reader.template,
+            set: it.set,
+            json: it.json,
+            quiet: it.quiet,
         }
     }
 }

@@ -13,7 +13,7 @@ use physics::{
 };
 
 use super::coarse::{COARSE_SAMPLES, coarse_elements};
-use super::source::Source;
+use super::source::{Source, states};
 use crate::Failure;
 
 /// Length of the segments to begin with: of planets, and of the spacecraft.
@@ -42,6 +42,8 @@ pub struct Requested {
     pub degree: Option<usize>,
     /// Otherwise the greatest error of position.
     pub tolerance_m: f64,
+    /// Whether no progress is shown.
+    pub is_quiet: bool,
 }
 
 /// The precise model of a target.
@@ -59,7 +61,7 @@ pub fn precise(
     }
     let sampled = |segment_s: f64| -> Result<(FitPlan, Vec<CartesianState>), Failure> {
         let plan = FitPlan::new(requested.span, segment_s);
-        let states = source.states(&[target], &plan.epochs_s(), &mut || Ok(()))?.pop();
+        let states = states(source, &[target], &plan.epochs_s(), requested.is_quiet)?.pop();
         Ok((plan, states.unwrap_or_default()))
     };
     if let Some(degree) = requested.degree {
@@ -107,6 +109,7 @@ pub fn coarse(
     source: &dyn Source,
     targets: &[OnboardTarget],
     span: Span,
+    is_quiet: bool,
 ) -> Result<Vec<FittedBody<CoarseElements>>, Failure> {
     let nodes_s = Segment::<6, COARSE_SAMPLES>::nodes(span.start_s, span.end_s);
     let length_s = span.length_s();
@@ -145,7 +148,7 @@ pub fn coarse(
     // One flight for all.
     let mut requested = vec![OnboardTarget::Sun, OnboardTarget::Earth];
     requested.extend(targets.contains(&OnboardTarget::Spacecraft).then_some(OnboardTarget::Spacecraft));
-    let mut states = source.states(&requested, &epochs_s, &mut || Ok(()))?.into_iter();
+    let mut states = states(source, &requested, &epochs_s, is_quiet)?.into_iter();
     let [sun, earth] = [(); 2].map(|()| states.next().unwrap_or_default());
     let origin = vec![CartesianState::default(); epochs_s.len()];
     if center != Body::Sun {

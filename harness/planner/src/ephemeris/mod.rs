@@ -4,7 +4,6 @@ mod coarse;
 mod fit;
 mod flight;
 mod onboard;
-mod shown;
 mod source;
 pub mod spk;
 

@@ -13,7 +13,6 @@ use super::{
     Failure, Requested, Source, coarse,
     flight::RepeatableSimulation,
     precise,
-    shown::Shown,
     spk::{Center, Kernels},
 };
 
@@ -52,22 +51,24 @@ pub struct EphemerisRequest {
 /// States that the source does not have, and fits beyond the tolerance.
 pub fn fit(request: &EphemerisRequest) -> Result<Option<(String, String)>, Failure> {
     let [start_s, stop_s] = request.span_s;
-    let source = Shown { source: source(request)?, is_quiet: request.is_quiet };
+    let source = source(request)?;
     let mut made = OnboardEphemeris { source: Some(source.title()), ..OnboardEphemeris::default() };
     let requested = Requested {
         span: Span::new(start_s, stop_s),
         segment_s: request.segment_s,
         degree: request.degree,
         tolerance_m: request.tolerance_m,
+        is_quiet: request.is_quiet,
     };
     for target in &request.targets {
-        made.precise.push(precise(&source, *target, &requested)?);
+        made.precise.push(precise(&*source, *target, &requested)?);
         if interrupt::raised() {
             return Ok(None);
         }
     }
     if let Some(until_s) = request.coarse_until_s {
-        made.coarse = coarse(&source, &request.targets, Span::new(start_s, until_s))?;
+        let span = Span::new(start_s, until_s);
+        made.coarse = coarse(&*source, &request.targets, span, request.is_quiet)?;
     }
     let text = terminal::unsigned_zeros(&to_toml(&made)).into_owned();
     // What a spacecraft will read is what was made.

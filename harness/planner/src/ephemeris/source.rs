@@ -1,5 +1,6 @@
 //! Sources of a fit: states of bodies and of the spacecraft about a centre.
 
+use isolation::interrupt;
 use physics::{
     bodies::Body,
     environment::{CartesianState, onboard::OnboardTarget},
@@ -26,4 +27,21 @@ pub trait Source {
         epochs_s: &[f64],
         reported: &mut dyn FnMut() -> Result<(), Failure>,
     ) -> Result<Vec<Vec<CartesianState>>, Failure>;
+}
+
+/// States of a source, with a bar unless that is hidden, until Ctrl-C.
+pub(super) fn states(
+    source: &dyn Source,
+    targets: &[OnboardTarget],
+    epochs_s: &[f64],
+    is_quiet: bool,
+) -> Result<Vec<Vec<CartesianState>>, Failure> {
+    let named: Vec<String> = targets.iter().map(ToString::to_string).collect();
+    let bar = terminal::progress(epochs_s.len() as u64, &format!("epochs of {}", named.join(", ")), is_quiet);
+    let states = source.states(targets, epochs_s, &mut || {
+        bar.inc(1);
+        if interrupt::raised() { Err("interrupted".into()) } else { Ok(()) }
+    });
+    bar.finish_and_clear();
+    states
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix2, Vector2, Vector3};
 use physics::environment::CartesianState;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use super::{
     dispersion::Outcome,
@@ -10,13 +10,16 @@ use super::{
     miss::MissCost,
     sensitivity::{DesiredDeltaV, Sensitivity},
 };
-use crate::momentum::{
-    attainable::Reachable,
-    report::{by_percent, percentiles},
-    simulated::SimulatedFlight,
-    target::Moves,
-    torque::Control,
-    windows::Window,
+use crate::{
+    momentum::{
+        attainable::Reachable,
+        controls::Control,
+        report::{by_percent, percentiles},
+        simulated::SimulatedFlight,
+        target::Moves,
+        windows::Window,
+    },
+    text_table::csv,
 };
 
 /// Columns of an encounter.
@@ -55,8 +58,16 @@ pub struct FlybyReport {
     pub aimpoint_m: [f64; 2],
     /// Difference between s past J2000 TDB and the time of the flight.
     pub epoch_minus_time_s: f64,
+    /// Name of the planet.
+    pub body: &'static str,
     /// Radius of the planet, in m.
     pub radius_m: f64,
+    /// Its gravitational parameter, in m3/s2.
+    pub gm_m3_s2: f64,
+    /// How long before closest approach the hyperbola osculates that B is of, in s.
+    pub lead_s: f64,
+    /// Whether the time of arrival is a goal.
+    pub is_timed: bool,
     /// Miss of the mission as it is, and of the plan: along T and R in m, of the arrival in s.
     pub miss: [Option<Vector3<f64>>; 2],
     /// Encounter of the plan's flight, of the mission's where there is no plan: closest approach and osculation in s of the flight,
@@ -87,10 +98,10 @@ pub fn encounter_of(sensitivity: &Sensitivity, radius_m: f64) -> [f64; 4] {
 
 impl FlybyReport {
     /// Members of `plan.json`.
-    pub fn members(&self) -> Map<String, Value> {
+    pub fn members(&self) -> Value {
         let [arrival_s, osculation_s, altitude_m, excess_m_s] = self.encounter;
-        let miss = |miss: &Option<Vector3<f64>>| miss.map_or(Value::Null, |it| json!([it.x, it.y]));
-        let late = |miss: &Option<Vector3<f64>>| miss.map_or(Value::Null, |it| json!(it.z));
+        let [miss_before, miss_after] = self.miss.map(|miss| miss.map(|it| [it.x, it.y]));
+        let [late_before, late_after] = self.miss.map(|miss| miss.map(|it| it.z));
         let [plus_t, minus_t, plus_r, minus_r] = self.reach.along_m;
         let desired = self.desired.iter().map(|(at_s, it)| {
             json!({
@@ -100,12 +111,12 @@ impl FlybyReport {
                 "declination_deg": it.declination_rad().to_degrees(),
             })
         });
-        let members = json!({
+        json!({
             "aim_m": self.aimpoint_m,
-            "missBefore_m": miss(&self.miss[0]),
-            "missAfter_m": miss(&self.miss[1]),
-            "lateBefore_s": late(&self.miss[0]),
-            "lateAfter_s": late(&self.miss[1]),
+            "missBefore_m": miss_before,
+            "missAfter_m": miss_after,
+            "lateBefore_s": late_before,
+            "lateAfter_s": late_after,
             "arrival_s": arrival_s,
             "osculation_s": osculation_s,
             "osculationEpoch_s": osculation_s + self.epoch_minus_time_s,
@@ -114,37 +125,19 @@ impl FlybyReport {
             "reach_m": { "+T": plus_t, "-T": minus_t, "+R": plus_r, "-R": minus_r },
             "reachable_m": self.reach.polygon_m,
             "desiredDeltaV": desired.collect::<Vec<_>>(),
-            "maneuvers": self.compared.as_ref().map_or(Value::Null, compared),
-            "dispersions": self.campaign.as_ref().map_or(Value::Null, campaign),
-        });
-        match members {
-            Value::Object(members) => members,
-            _ => Map::new(),
-        }
+            "maneuvers": self.compared.as_ref().map(compared),
+            "dispersions": self.campaign.as_ref().map(campaign),
+        })
     }
 
     /// `desired.csv`.
-    ///
-    /// # Errors
-    /// What CSV does not take.
-    pub fn desired_csv(&self) -> Result<Vec<u8>, csv::Error> {
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        writer.write_record([
-            "time_s",
-            "delta_v_m_s",
-            "right_ascension_deg",
-            "declination_deg",
-            "delta_v_x_m_s",
-            "delta_v_y_m_s",
-            "delta_v_z_m_s",
-        ])?;
-        for (at_s, it) in &self.desired {
+    pub fn desired_csv(&self) -> String {
+        let rows = self.desired.iter().map(|(at_s, it)| {
             let angles = [it.right_ascension_rad(), it.declination_rad()].map(f64::to_degrees);
-            let numbers =
-                [*at_s, it.size_m_s()].into_iter().chain(angles).chain(it.delta_v_m_s.iter().copied());
-            writer.write_record(numbers.map(|number| number.to_string()))?;
-        }
-        writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+            [*at_s, it.size_m_s()].into_iter().chain(angles).chain(it.delta_v_m_s.iter().copied())
+        });
+        let header = "time_s,delta_v_m_s,right_ascension_deg,declination_deg,delta_v_x_m_s,delta_v_y_m_s,delta_v_z_m_s";
+        csv(header, rows)
     }
 }
 
@@ -201,32 +194,23 @@ fn campaign(campaign: &Campaign) -> Value {
 
 /// `partials.csv`: the state at every row of a flight up to the epoch of osculation, EME2000 from the Sun, and B.T, B.R (m) and arrival
 /// (s) by it.
-///
-/// # Errors
-/// What CSV does not take.
-pub fn partials_csv(sensitivity: &Sensitivity, flight: &SimulatedFlight) -> Result<Vec<u8>, csv::Error> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
+pub fn partials_csv(sensitivity: &Sensitivity, flight: &SimulatedFlight) -> String {
     let state = ["x_m", "y_m", "z_m", "v_x_m_s", "v_y_m_s", "v_z_m_s"];
-    let by_state = ENCOUNTER.iter().flat_map(|row| state.map(|column| format!("{row}_by_{column}")));
-    writer.write_record(["time_s"].into_iter().chain(state).map(str::to_owned).chain(by_state))?;
     let before = flight.rows.iter().filter(|row| row.time_s <= sensitivity.encounter.epoch_s);
-    for (row, motion) in before.filter_map(|row| Some((row, row.motion?))) {
-        let CartesianState { position_m, velocity_m_s } = motion.from_sun;
-        let by_state = sensitivity.at(row.time_s).transpose();
+    let rows = before.filter_map(|row| {
+        let CartesianState { position_m, velocity_m_s } = row.motion?.from_sun;
         let numbers = [position_m, velocity_m_s].into_iter().flat_map(<[f64; 3]>::from);
-        let cells = [row.time_s].into_iter().chain(numbers).chain(by_state.iter().copied());
-        writer.write_record(cells.map(|number| number.to_string()))?;
-    }
-    writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+        let by_state = sensitivity.at(row.time_s).transpose();
+        Some([row.time_s].into_iter().chain(numbers).chain(by_state.iter().copied().collect::<Vec<_>>()))
+    });
+    let by_state = ENCOUNTER.iter().flat_map(|row| state.map(|column| format!("{row}_by_{column}")));
+    let names: Vec<String> = by_state.collect();
+    csv(&format!("time_s,{},{}", state.join(","), names.join(",")), rows)
 }
 
 /// `sensitivity.csv`: B.T, B.R (m) and arrival (s) of every window by a degree of offset, windmill, azimuth and elevation, by the share of
 /// the alternate attitude, and by a degree of its own azimuth and elevation.
-///
-/// # Errors
-/// What CSV does not take.
-pub fn sensitivity_csv(windows: &[Window], by_window: &[Moves]) -> Result<Vec<u8>, csv::Error> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
+pub fn sensitivity_csv(windows: &[Window], by_window: &[Moves]) -> String {
     let controls = [
         "offset_deg",
         "windmill_deg",
@@ -236,15 +220,13 @@ pub fn sensitivity_csv(windows: &[Window], by_window: &[Moves]) -> Result<Vec<u8
         "alternate_azimuth_deg",
         "alternate_elevation_deg",
     ];
-    let names = controls.iter().flat_map(|control| ENCOUNTER.map(|row| format!("{row}_by_{control}")));
-    writer.write_record(["start_s", "stop_s"].map(str::to_owned).into_iter().chain(names))?;
-    for (window, by) in windows.iter().zip(by_window) {
+    let rows = windows.iter().zip(by_window).map(|(window, by)| {
         let numbers = by.by_control.iter().enumerate().flat_map(|(control, by)| {
             let unit = if control == Control::Alternate as usize { 1.0 } else { 1.0_f64.to_radians() };
             [0, 1, 2].map(|row| by[row] * unit)
         });
-        let cells = [window.start_s, window.stop_s].into_iter().chain(numbers);
-        writer.write_record(cells.map(|number| number.to_string()))?;
-    }
-    writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+        [window.start_s, window.stop_s].into_iter().chain(numbers)
+    });
+    let names = controls.iter().flat_map(|control| ENCOUNTER.map(|row| format!("{row}_by_{control}")));
+    csv(&format!("start_s,stop_s,{}", names.collect::<Vec<_>>().join(",")), rows)
 }

@@ -7,7 +7,10 @@ use fmi::csv::Real;
 use inputs::ending::{OPTION, by_ending};
 
 use super::{found::Found, options::Map, picture, spacecraft::MappedSpacecraft};
-use crate::torque_map::{Angles, direction};
+use crate::{
+    text_table::csv,
+    torque_map::{Angles, direction},
+};
 
 /// Options that name the files.
 const OPTIONS: [&str; 3] = [OPTION, OPTION, "--lines"];
@@ -70,26 +73,20 @@ fn usual_picture(arguments: &Map) -> PathBuf {
 
 /// A row for each direction; 180 deg of azimuth is -180 deg.
 fn torque(spacecraft: &MappedSpacecraft, found: &Found) -> String {
-    let mut text = "sun_azimuth_deg,sun_elevation_deg".to_owned();
+    let mut header = "sun_azimuth_deg,sun_elevation_deg".to_owned();
     for (what, unit) in [("torque", "n_m"), ("force", "n")] {
-        text.extend(AXES.map(|axis| format!(",{what}_{axis}_{unit}")));
+        header.extend(AXES.map(|axis| format!(",{what}_{axis}_{unit}")));
     }
-    text.extend((1..=spacecraft.lit.panels.len()).map(|number| format!(",panel_{number}_angle_deg")));
-    text.push('\n');
-    for (place_deg, load) in found.sphere.grid.nodes().filter(|(place_deg, _)| place_deg[0] < 180.0) {
+    let panels = &spacecraft.lit.panels;
+    header.extend((1..=panels.len()).map(|number| format!(",panel_{number}_angle_deg")));
+    let nodes = found.sphere.grid.nodes().filter(|(place_deg, _)| place_deg[0] < 180.0);
+    let rows = nodes.map(|(place_deg, load)| {
         let sun = direction(place_deg);
-        let loads = load.torque_n_m.iter().chain(load.force_n.iter()).copied();
-        let angles_deg = spacecraft.lit.panels.iter().map(|turned| turned.angle_rad(&sun).to_degrees());
-        let cells: Vec<String> = place_deg
-            .into_iter()
-            .chain(loads)
-            .chain(angles_deg)
-            .map(|value| Real(value).to_string())
-            .collect();
-        text.push_str(&cells.join(","));
-        text.push('\n');
-    }
-    text
+        let loads = [load.torque_n_m, load.force_n].into_iter().flat_map(<[f64; 3]>::from);
+        let angles_deg = panels.iter().map(move |turned| turned.angle_rad(&sun).to_degrees());
+        place_deg.into_iter().chain(loads).chain(angles_deg).map(Real)
+    });
+    csv(&header, rows)
 }
 
 /// A row for each place of each line and for each balance, of all directions and of the zone.

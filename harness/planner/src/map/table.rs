@@ -9,7 +9,10 @@ use super::{
     spacecraft::{MappedSpacecraft, WeighedSun},
     verdict,
 };
-use crate::torque_map::{Angles, Mapped, Rule};
+use crate::{
+    text_table::headed,
+    torque_map::{Angles, Mapped, Rule},
+};
 
 /// Rows of a table at most.
 const MAX_ROWS: usize = 12;
@@ -66,8 +69,7 @@ fn head(spacecraft: &MappedSpacecraft, found: &Found, source: SourceKind) -> Str
     if spacecraft.panels_left_out {
         text += "\nEvery panel is mapped: panel[k].enabled = false counts in MomentumPlant alone.";
     }
-    let mut table =
-        terminal::table(&["torque [uN.m]", "azimuth [deg]", "elevation [deg]", "X", "Y", "Z", "size"]);
+    let mut table = headed("torque [uN.m] | azimuth [deg] | elevation [deg] | X | Y | Z | size");
     let mut row = |what: &str, place: Angles, torque_n_m: Vector3<f64>| {
         let mut cells = vec![what.to_owned()];
         cells.extend(place.map(angle));
@@ -94,13 +96,9 @@ fn head(spacecraft: &MappedSpacecraft, found: &Found, source: SourceKind) -> Str
 
 /// Lines of zero torque by axis.
 fn lines(mapped: &Mapped, where_: &str) -> String {
-    let mut table = terminal::table(&[
-        "zero torque about",
-        "azimuth from, to [deg]",
-        "elevation from, to [deg]",
-        "elevation at azimuth 0",
-        "azimuth at elevation 0",
-    ]);
+    let mut table = headed(
+        "zero torque about | azimuth from, to [deg] | elevation from, to [deg] | elevation at azimuth 0 | azimuth at elevation 0",
+    );
     let all =
         mapped.lines.iter().zip(NAMES).flat_map(|(lines, name)| lines.iter().map(move |line| (name, line)));
     let mut all: Vec<_> = all.collect();
@@ -135,12 +133,8 @@ fn balances(mapped: &Mapped, where_: &str) -> String {
     if count == 0 {
         return format!("Balance, {where_}: X and Z vanish together nowhere");
     }
-    let mut table = terminal::table(&[
-        "X and Z vanish at azimuth [deg]",
-        "elevation [deg]",
-        "Y [uN.m]",
-        "a small turn about X, Z is",
-    ]);
+    let mut table =
+        headed("X and Z vanish at azimuth [deg] | elevation [deg] | Y [uN.m] | a small turn about X, Z is");
     for balance in mapped.balances.iter().take(MAX_ROWS) {
         let [mut azimuth, elevation] = balance.place_deg.map(angle);
         if balance.place_deg[1].abs() > 90.0 - 1e-4 {
@@ -160,15 +154,9 @@ fn more(count: usize) -> String {
 }
 
 fn worths(found: &Found, sun: &WeighedSun) -> String {
-    let mut table = terminal::table(&[
-        "a degree of",
-        "X [uN.m]",
-        "Y [uN.m]",
-        "Z [uN.m]",
-        "X [N.m.s per day]",
-        "Y [N.m.s per day]",
-        "Z [N.m.s per day]",
-    ]);
+    let mut table = headed(
+        "a degree of | X [uN.m] | Y [uN.m] | Z [uN.m] | X [N.m.s per day] | Y [N.m.s per day] | Z [N.m.s per day]",
+    );
     for worth in &found.weighed.1 {
         let torque_n_m = worth.torque_n_m_per_deg;
         let mut cells = vec![worth.what.clone()];
@@ -186,8 +174,7 @@ fn worths(found: &Found, sun: &WeighedSun) -> String {
 
 fn attainable(spacecraft: &MappedSpacecraft, found: &Found) -> String {
     let attainable = &found.attainable;
-    let mut table =
-        terminal::table(&["downlinks can add [uN.m]", "least", "greatest", "greatest [N.m.s per day]"]);
+    let mut table = headed("downlinks can add [uN.m] | least | greatest | greatest [N.m.s per day]");
     for (axis, name) in ["X", "Z"].into_iter().enumerate() {
         let [low, high] = attainable.added_n_m.extent(axis);
         table.add_row([format!("mean torque about {name}"), micro(low), micro(high), fixed(high * DAY_S)]);

@@ -4,11 +4,12 @@
 //! bounds of the task and its flight stays below the limit.
 
 use super::{
-    baseline::{OffsetStep, shared_rad},
+    baseline::OffsetStep,
+    controls::{ARRAYS, Control, Controls, PLACE},
     in_force::{ActiveControls, mean},
     planned::{AGREED, Least, MomentumPlan, PlanTask},
     simulated::{SAME_S, SimulatedFlight},
-    torque::{Control, Controls, SunlitSpacecraft},
+    torque::SunlitSpacecraft,
     windows::{Layout, Window, WindowKind},
 };
 
@@ -17,17 +18,13 @@ const SAME_RAD: f64 = 2e-6;
 /// Half of the longest cycle of normal and alternate attitude, in s: a span may begin or end within one.
 const HALF_CYCLE_S: f64 = 43_200.0;
 
-fn arrays_rad(controls: &Controls) -> [f64; 2] {
-    [Control::Offset, Control::Windmill].map(|it| controls.get(it))
-}
-
 fn is_within(value: f64, [low, high]: [f64; 2]) -> bool {
     value >= low - SAME_RAD && value <= high + SAME_RAD
 }
 
 /// Offset and windmill angle of the mission just before a time, where they are known, in rad.
 fn arrays_before_rad(own: &[ActiveControls], at_s: f64) -> Option<[f64; 2]> {
-    own.iter().rfind(|it| it.at_s < at_s - SAME_S).map(|it| arrays_rad(&it.controls))
+    own.iter().rfind(|it| it.at_s < at_s - SAME_S).map(|it| it.controls.each(ARRAYS))
 }
 
 /// Times at which the arrays move in the windows, that at the end of the frozen time among them.
@@ -37,8 +34,8 @@ pub(super) fn array_changes(layout: &Layout, windows: &[Window]) -> usize {
     let mut last =
         frozen.map(|window| arrays_before_rad(&layout.own, window.stop_s).unwrap_or([f64::NAN; 2]));
     let mut changes = 0;
-    for window in windows.iter().filter(|it| it.kind != WindowKind::Frozen && !it.sides.is_empty()) {
-        let now = arrays_rad(&window.controls);
+    for window in windows.iter().filter(|it| it.has_arrays()) {
+        let now = window.controls.each(ARRAYS);
         let stays = |last: [f64; 2]| last.iter().zip(now).all(|(a, b)| (a - b).abs() < SAME_RAD);
         changes += usize::from(last.is_some_and(|last| !stays(last)));
         last = Some(now);
@@ -50,7 +47,7 @@ pub(super) fn array_changes(layout: &Layout, windows: &[Window]) -> usize {
 pub(super) fn may_stay(layout: &Layout, windows: &[Window]) -> bool {
     let [first, next, ..] = windows else { return false };
     let before = arrays_before_rad(&layout.own, first.stop_s).filter(|_| first.kind == WindowKind::Frozen);
-    let bounds = [Control::Offset, Control::Windmill].map(|it| next.bounds[it as usize]);
+    let bounds = ARRAYS.map(|it| next.bounds[it as usize]);
     before.is_some_and(|before| before.into_iter().zip(bounds).all(|(rad, bounds)| is_within(rad, bounds)))
 }
 
@@ -101,22 +98,18 @@ pub(super) fn own_windows(
 /// Whether the controls of a window of the mission are a plan's: within its bounds, the corridor and the times without contact.
 fn is_allowed(layout: &Layout, window: &Window, simulated: &SimulatedFlight) -> bool {
     let controls = &window.controls;
-    let place_rad = [Control::Azimuth, Control::Elevation].map(|it| controls.get(it));
+    let place_rad = controls.each(PLACE);
     let within = |control: Control| is_within(controls.get(control), window.bounds[control as usize]);
     let is_lit = window.sides.is_empty() || {
-        let inside = window.start_s - SAME_S..=window.stop_s + SAME_S;
-        let rows = simulated.rows.iter().filter(|row| inside.contains(&row.time_s));
-        let [low, high] = shared_rad(&layout.corridor, rows.map(|row| row.to_sun_m.norm()));
-        let allowed = if layout.offset_sign < 0.0 { [-high, -low] } else { [low, high] };
-        let [offset_rad, windmill_rad] = arrays_rad(controls);
+        let rows: Vec<_> = simulated.within([window.start_s, window.stop_s]).collect();
+        let allowed = layout.corridor_rad(&rows);
+        let [offset_rad, windmill_rad] = controls.each(ARRAYS);
         within(Control::Windmill)
             && window.sides.iter().all(|side| is_within(offset_rad + side * windmill_rad, allowed))
     };
-    let free_s: f64 = window.free_of_contact.iter().map(|[from_s, to_s]| to_s - from_s).sum();
-    let is_free = controls.get(Control::Alternate) <= 0.0 || free_s >= window.length_s() - SAME_S;
+    let is_free = controls.get(Control::Alternate) <= 0.0 || window.free_s() >= window.length_s() - SAME_S;
     let is_place = window.kind != WindowKind::Free
-        || (within(Control::Azimuth)
-            && within(Control::Elevation)
+        || (PLACE.into_iter().all(within)
             && window.places.iter().all(|side| {
                 is_within(
                     side.weights[0] * place_rad[0] + side.weights[1] * place_rad[1],
@@ -132,7 +125,8 @@ fn cost(plan: &MomentumPlan, task: &PlanTask) -> f64 {
     match task.least {
         Least::Tilt => free
             .map(|it| {
-                it.length_s() * it.controls.get(Control::Azimuth).hypot(it.controls.get(Control::Elevation))
+                let [azimuth_rad, elevation_rad] = it.controls.each(PLACE);
+                it.length_s() * azimuth_rad.hypot(elevation_rad)
             })
             .sum(),
         Least::Momentum => plan.flight.greatest(task.limit.size).0,

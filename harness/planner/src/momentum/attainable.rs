@@ -8,14 +8,16 @@ use nalgebra::{Vector2, Vector3};
 use rayon::prelude::*;
 
 use super::{
+    controls::{Control, Controls},
     counted,
+    formulation::{Formulation, Part},
     model::Model,
     plan::{PlanError, PlanTask, PlannedDump, Simulates, give, refine},
     program::{GUARD, Goal, TargetRow, WHOLE},
     region::Region,
-    simulated::{FlightRow, SAME_S, SimulatedFlight},
+    simulated::{FlightRow, SimulatedFlight},
     target::{LinearMiss, Target},
-    torque::{Attitude, Control, Controls, SunlitSpacecraft},
+    torque::{Attitude, SunlitSpacecraft},
     windows::Window,
 };
 use crate::Failure;
@@ -93,13 +95,11 @@ pub fn downlink_momentum_n_m_s(
     [from_s, to_s]: [f64; 2],
 ) -> Vector3<f64> {
     let with = simulated.with_rows_at(&[from_s, to_s]);
-    let inside: Vec<_> =
-        with.rows.iter().filter(|row| (from_s - SAME_S..=to_s + SAME_S).contains(&row.time_s)).collect();
+    let inside: Vec<_> = with.within([from_s, to_s]).collect();
     let torque = |row: &FlightRow| {
         let window = windows.iter().find(|window| window.stop_s >= row.time_s);
         let controls = window.map(|window| window.controls).unwrap_or_default();
-        let controls = controls.with(Control::Azimuth, 0.0).with(Control::Elevation, 0.0);
-        sunlit.torque_n_m(row, Attitude::Downlink, &controls) + row.other_torque_n_m
+        sunlit.torque_n_m(row, Attitude::Downlink, &controls.with_place([0.0; 2])) + row.other_torque_n_m
     };
     let pairs = inside.windows(2);
     pairs.map(|pair| (torque(pair[0]) + torque(pair[1])) * (0.5 * (pair[1].time_s - pair[0].time_s))).sum()
@@ -160,7 +160,7 @@ pub fn reachable(
     all.extend(reached.into_iter().filter_map(|(_, corner)| corner));
     let mut places: Vec<Vector2<f64>> = all.iter().map(|corner| corner.place_m).collect();
     // The flight as it is, where it keeps the limits.
-    if simulated.greatest(task.limit.size).0 <= task.limit.momentum_n_m_s * (1.0 - task.limit.margin) {
+    if simulated.greatest(task.limit.size).0 <= task.limit.kept_n_m_s() {
         places.push(Vector2::zeros());
     }
     let polygon_m = hull(places);
@@ -274,8 +274,9 @@ impl Search<'_> {
         let aside = Vector2::new(-direction.y, direction.x);
         let mut trust = WHOLE;
         while trust > MIN_RANGE {
-            let LinearMiss { constant, terms } = model.linear_miss(&leaders)?;
-            let mut program = model.program(&leaders, model.whole(), [GUARD, trust]);
+            let formulation = Formulation { model, leaders: &leaders };
+            let LinearMiss { constant, terms } = formulation.linear_miss()?;
+            let mut program = formulation.program(Part::whole(model), [GUARD, trust]);
             let by = |axis: Vector2<f64>| terms.iter().map(move |(index, by)| (*index, axis.dot(&by.xy())));
             let size = by(direction).map(|(_, by)| by.abs()).fold(0.0, f64::max);
             if size == 0.0 {

@@ -56,7 +56,8 @@ struct Bound {
     rad: [f64; 2],
 }
 
-fn meet(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+/// Values within both bounds.
+pub(super) fn meet(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0].max(b[0]), a[1].min(b[1])]
 }
 

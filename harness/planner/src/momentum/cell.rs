@@ -6,9 +6,11 @@ use nalgebra::{Matrix3, Matrix3x4, Vector3};
 use physics::constants::DAY_S;
 
 use super::{
+    controls::{ALL, CONTROLS, Control},
+    linear_torque::LinearTorque,
     simulated::{FlightRow, SAME_S},
     target::Moves,
-    torque::{ALL, CONTROLS, Control, LinearTorque, SunlitSpacecraft},
+    torque::SunlitSpacecraft,
     windows::{Window, WindowKind},
 };
 
@@ -145,12 +147,7 @@ pub(crate) fn cell(
     let sums = |from: &[Vector3<f64>; CONTROLS], to: &[Vector3<f64>; CONTROLS]| {
         let mut sums: [Vector3<f64>; CONTROLS] = core::array::from_fn(|k| (from[k] + to[k]) * half_s);
         sums[Control::Alternate as usize] *= share_by_control;
-        for control in ALL {
-            let [low, high] = of.bounds[control as usize];
-            if low >= high {
-                sums[control as usize] = Vector3::zeros();
-            }
-        }
+        ALL.into_iter().filter(|it| !of.moves(*it)).for_each(|it| sums[it as usize] = Vector3::zeros());
         sums
     };
     let gain = match of.kind {

@@ -14,10 +14,11 @@
 use std::{collections::HashMap, time::Instant};
 
 use super::{
-    model::{Model, Part},
+    controls::ARRAYS,
+    formulation::{Formulation, Part},
+    model::Model,
     program::{GUARD, Goal, WHOLE},
     simulated::SAME_S,
-    torque::Control,
     windows::WindowKind,
 };
 
@@ -49,11 +50,12 @@ pub(super) fn single(model: &Model) -> Vec<usize> {
     (0..model.windows.len()).collect()
 }
 
-fn is_kept(model: &Model, leaders: &[usize], part: Part, [guard, trust]: [f64; 2], scale: f64) -> bool {
-    let mut program = model.program(leaders, part, [guard, trust]);
+/// Whether some controls of a part keep this much of the limit; `ranges` are the share of it that is left, and that of every control's range.
+fn is_kept(of: Formulation<'_>, part: Part, ranges: [f64; 2], scale: f64) -> bool {
+    let mut program = of.program(part, ranges);
     program.steps.iter_mut().for_each(|step| step.limit *= scale);
     let found = program.solve(Goal::LeastExcess);
-    found.is_some_and(|it| it.excess <= KEPT * model.limit.momentum_n_m_s)
+    found.is_some_and(|it| it.excess <= KEPT * of.model.limit.momentum_n_m_s)
 }
 
 /// The greatest number in a range for which what holds for less holds, found by going ahead in doubled strides; `low` holds.
@@ -79,7 +81,7 @@ fn farthest(low: usize, high: usize, mut holds: impl FnMut(usize) -> bool) -> us
 /// Ends of the parts between dumps, in steps; `None` where one step alone exceeds the limit.
 fn parts(model: &Model, guard: f64, scale: f64, most: usize) -> Option<Vec<usize>> {
     let leaders = single(model);
-    let count = model.instants().len();
+    let count = model.instants.len();
     let mut ends = Vec::new();
     let mut from = 0;
     while from < count {
@@ -88,7 +90,7 @@ fn parts(model: &Model, guard: f64, scale: f64, most: usize) -> Option<Vec<usize
         }
         let holds = |to: usize| {
             let part = Part { steps: [from, to], free: from > 0 };
-            is_kept(model, &leaders, part, [guard, WHOLE], scale)
+            is_kept(Formulation { model, leaders: &leaders }, part, [guard, WHOLE], scale)
         };
         // Where the limit is exceeded at once nothing is to be dumped yet.
         let to = farthest(from, count, holds);
@@ -104,12 +106,13 @@ fn parts(model: &Model, guard: f64, scale: f64, most: usize) -> Option<Vec<usize
 /// Dumps that no plan on the baseline can do without: each falls somewhere in the step that no relaxed programme reaches the end of.
 fn least_dumps(model: &Model) -> usize {
     let leaders = single(model);
-    let count = model.instants().len();
+    let count = model.instants.len();
     let (mut from, mut dumps) = (0, 0);
     while from < count {
         let free = dumps > 0;
         let to = farthest(from, count, |to| {
-            is_kept(model, &leaders, Part { steps: [from, to], free }, [0.0, WHOLE], 1.0)
+            let part = Part { steps: [from, to], free };
+            is_kept(Formulation { model, leaders: &leaders }, part, [0.0, WHOLE], 1.0)
         });
         if to >= count {
             break;
@@ -137,7 +140,7 @@ pub(super) fn fewest_dumps(model: &Model, guard: f64, progress: &mut dyn FnMut()
     }
     best.pop();
     let at_least = least_dumps(model).min(count);
-    let rows = best.into_iter().filter_map(|end| model.instants().get(end - 1).copied()).collect();
+    let rows = best.into_iter().filter_map(|end| model.instants.get(end - 1).copied()).collect();
     Some(Dumps { rows, at_least })
 }
 
@@ -145,11 +148,12 @@ pub(super) fn fewest_dumps(model: &Model, guard: f64, progress: &mut dyn FnMut()
 /// Other controls may keep it longer: the model is linear.
 pub(super) fn first_exceeded_s(model: &Model) -> Option<f64> {
     let leaders = single(model);
-    let count = model.instants().len();
+    let count = model.instants.len();
     let kept = farthest(0, count, |to| {
-        is_kept(model, &leaders, Part { steps: [0, to], free: false }, [GUARD, WHOLE], 1.0)
+        let part = Part { steps: [0, to], free: false };
+        is_kept(Formulation { model, leaders: &leaders }, part, [GUARD, WHOLE], 1.0)
     });
-    model.instants().get(kept).map(|row| model.simulated.rows[*row].time_s)
+    model.instants.get(kept).map(|row| model.simulated.rows[*row].time_s)
 }
 
 /// Searches the places of the changes.
@@ -180,9 +184,13 @@ impl Search<'_> {
             .collect()
     }
 
+    fn is_kept(&self, leaders: &[usize], part: Part) -> bool {
+        is_kept(Formulation { model: self.model, leaders }, part, self.ranges, 1.0)
+    }
+
     /// Whether a plan exists with these changes, all windows from one on by themselves.
     fn is_open(&self, changes: &[usize], single_from: usize) -> bool {
-        is_kept(self.model, &self.leaders(changes, single_from), self.model.whole(), self.ranges, 1.0)
+        self.is_kept(&self.leaders(changes, single_from), Part::whole(self.model))
     }
 
     /// The window up to which those from `from` on can share their arrays, whatever comes before and after.
@@ -193,7 +201,7 @@ impl Search<'_> {
         let leaders = self.leaders(&[from], usize::MAX);
         let to = farthest(from, self.forced.len(), |to| {
             let part = Part { steps: [self.steps[from], self.steps[to]], free: from > 0 };
-            part.steps[0] >= part.steps[1] || is_kept(self.model, &leaders, part, self.ranges, 1.0)
+            part.steps[0] >= part.steps[1] || self.is_kept(&leaders, part)
         });
         let to = to.max(from + 1);
         self.reached.insert(from, to);
@@ -273,10 +281,6 @@ pub(super) fn fewest_changes(
     progress: &mut dyn FnMut(),
 ) -> Option<Groups> {
     let windows = &model.windows;
-    let is_moved = |window: usize, control: Control| {
-        let [low, high] = windows[window].bounds[control as usize];
-        low < high
-    };
     let is_forced = |window: usize| {
         window == 0
             || windows[window - 1].kind == WindowKind::Frozen
@@ -288,7 +292,7 @@ pub(super) fn fewest_changes(
     let base = if has_arrays { forced.iter().filter(|it| **it).count().saturating_sub(1) } else { 0 };
     let mut steps = vec![0; windows.len() + 1];
     let mut window = 0;
-    for (step, &row) in model.instants().iter().enumerate() {
+    for (step, &row) in model.instants.iter().enumerate() {
         let end_s = model.simulated.rows[row].time_s;
         while window < windows.len() && windows[window].stop_s <= end_s + SAME_S {
             window += 1;
@@ -300,9 +304,7 @@ pub(super) fn fewest_changes(
         Search { model, ranges, forced, steps, until, reached: HashMap::new() }
     };
     let (mut search, mut proof) = (search(ranges), search([0.0, WHOLE]));
-    let moves = (0..windows.len())
-        .any(|window| is_moved(window, Control::Windmill) || is_moved(window, Control::Offset));
-    if !moves {
+    if !windows.iter().any(|window| ARRAYS.iter().any(|control| window.moves(*control))) {
         let leaders = search.leaders(&[], usize::MAX);
         return Some(Groups { leaders, changes: base, at_least: base });
     }

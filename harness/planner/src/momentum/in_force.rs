@@ -4,8 +4,8 @@
 //! the share.
 
 use super::{
+    controls::{ALL, Controls},
     simulated::SAME_S,
-    torque::{ALL, Controls},
 };
 
 /// Controls from a time on.
@@ -36,7 +36,7 @@ pub(super) fn mean(all: &[ActiveControls], [from_s, to_s]: [f64; 2]) -> Option<C
 mod tests {
     //! Means over spans that begin and end between controls.
     use super::*;
-    use crate::momentum::torque::Control;
+    use crate::momentum::controls::Control;
 
     fn in_force() -> Vec<ActiveControls> {
         let of = |at_s, azimuth_rad, alternate| ActiveControls {

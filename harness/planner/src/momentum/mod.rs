@@ -4,9 +4,12 @@ mod as_it_is;
 pub mod attainable;
 pub mod baseline;
 pub(crate) mod cell;
+pub(crate) mod controls;
 mod counted;
 pub mod encountered;
+mod formulation;
 pub mod in_force;
+mod linear_torque;
 mod mission;
 mod model;
 pub mod places;
@@ -23,6 +26,7 @@ pub mod target;
 #[cfg(test)]
 pub(crate) mod test_spacecraft;
 pub mod torque;
+mod window;
 pub mod windows;
 
 pub use mission::{HoldableDays, Mission};

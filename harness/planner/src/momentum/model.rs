@@ -5,20 +5,20 @@
 //! that had, and its derivatives are those of sunlight.
 
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, SymmetricEigen, Vector3};
-use physics::constants::DAY_S;
 
 use super::{
     cell::{At, Cell, cell, guard_shares, instants},
-    program::{Begin, Program, Step},
-    relaxed::{Placed, departures_n_m, relax},
+    relaxed::departures_n_m,
     simulated::{FlightRow, MomentumSize, SAME_S, SimulatedFlight},
-    target::{LinearMiss, Target, Targeting},
-    torque::{ALL, CONTROLS, Control, SunlitSpacecraft},
+    target::{Target, Targeting},
+    torque::SunlitSpacecraft,
     windows::{Window, WindowKind},
 };
 
 /// Deviations of the refit's errors that the margin holds.
 const SIGMAS: f64 = 3.0;
+/// Limit that never binds, of the limit.
+pub(super) const UNJUDGED: f64 = 1e3;
 
 /// Limit of the momentum.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,6 +31,13 @@ pub struct Limit {
     pub margin: f64,
     /// Covariance of the centre of mass (body frame, m) and of the scale of sunlight, where a refit gave it.
     pub covariance: Option<Matrix4<f64>>,
+}
+
+impl Limit {
+    /// The limit less its margin, in N m s.
+    pub(super) fn kept_n_m_s(&self) -> f64 {
+        self.momentum_n_m_s * (1.0 - self.margin)
+    }
 }
 
 /// A flight with windows, linear in their controls.
@@ -46,25 +53,18 @@ pub(super) struct Model {
     pub judged_from_s: f64,
     /// Rows at which planned dumps leave any momentum, with what they leave.
     pub dumps: Vec<(usize, Vector3<f64>)>,
-    targeting: Option<Targeting>,
-    cells: Vec<Cell>,
+    /// The target and its last flight.
+    pub targeting: Option<Targeting>,
+    /// From row to row.
+    pub cells: Vec<Cell>,
     /// Momentum that the last flight gained beyond the model, by cell.
-    corrections: Vec<Vector3<f64>>,
+    pub corrections: Vec<Vector3<f64>>,
     /// Last rows of the programme's steps.
-    instants: Vec<usize>,
+    pub instants: Vec<usize>,
     /// By how much |H| between instants exceeds that at them, by step.
-    between: Vec<f64>,
+    pub between: Vec<f64>,
     /// By how much the torque of every window departs from the model at most, in N m; nothing unless it was looked at.
-    departures_n_m: Vec<Vector3<f64>>,
-}
-
-/// Part of the flight that a programme covers.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Part {
-    /// Its first and its behind-last step.
-    pub steps: [usize; 2],
-    /// Whether it may begin with any momentum.
-    pub free: bool,
+    pub departures_n_m: Vec<Vector3<f64>>,
 }
 
 impl Model {
@@ -177,14 +177,9 @@ impl Model {
         self.cells = cells;
     }
 
-    /// The whole flight as a part.
-    pub(super) fn whole(&self) -> Part {
-        Part { steps: [0, self.instants.len()], free: false }
-    }
-
-    /// The rows at which the programme's steps end.
-    pub(super) fn instants(&self) -> &[usize] {
-        &self.instants
+    /// First and last row of a programme's step.
+    pub(super) fn rows_of(&self, step: usize) -> [usize; 2] {
+        [step.checked_sub(1).map_or(0, |before| self.instants[before]), self.instants[step]]
     }
 
     /// Takes a share of what a flight of the present controls gained beyond the model, and how it missed the target.
@@ -236,7 +231,7 @@ impl Model {
     /// Returns the largest |H| that is allowed at every row: the limit less its margin, in N m s.
     pub(super) fn allowed_n_m_s(&self) -> Vec<f64> {
         let limit = &self.limit;
-        let most = limit.momentum_n_m_s * (1.0 - limit.margin);
+        let most = limit.kept_n_m_s();
         let judged = |row: usize, allowed: f64| {
             let is_judged = self.simulated.rows[row].time_s >= self.judged_from_s - SAME_S;
             if is_judged { allowed } else { allowed + UNJUDGED * limit.momentum_n_m_s }
@@ -281,7 +276,8 @@ impl Model {
         all.fold(least, |worst, (row, over)| if over > worst.0 { (over, row) } else { worst })
     }
 
-    fn guard_shares(&self) -> Vec<f64> {
+    /// Share of a guard that is left at every row.
+    pub(super) fn guard_shares(&self) -> Vec<f64> {
         let is_dump = |row: usize| self.dumps.iter().any(|(at, _)| *at == row);
         guard_shares(&self.cells, &self.windows, &self.simulated.rows, is_dump)
     }
@@ -303,196 +299,11 @@ impl Model {
         }
     }
 
-    /// Index of a control in the programmes.
-    pub(super) fn index(leaders: &[usize], window: usize, control: Control) -> usize {
-        let of = match control {
-            Control::Offset | Control::Windmill => leaders[window],
-            _ => window,
-        };
-        CONTROLS * of + control as usize
-    }
-
-    /// Whether the arrays of every window stand as those of its leader.
-    pub(super) fn is_of(&self, leaders: &[usize]) -> bool {
-        let same = |window: usize, control: Control| {
-            let leader = &self.windows[leaders[window]].controls;
-            (self.windows[window].controls.get(control) - leader.get(control)).abs() < 1e-9
-        };
-        (0..self.windows.len()).all(|it| same(it, Control::Offset) && same(it, Control::Windmill))
-    }
-
-    /// Present controls by their indices.
-    pub(super) fn controls(&self, leaders: &[usize]) -> Vec<f64> {
-        let mut all = vec![0.0; CONTROLS * self.windows.len()];
-        for (index, window) in self.windows.iter().enumerate() {
-            for control in ALL {
-                all[Self::index(leaders, index, control)] = window.controls.get(control);
-            }
-        }
-        all
-    }
-
-    /// The programme of a part, the arrays of every window standing as those of its leader; `guard` is a share of the limit that is
-    /// left (0: a relaxed programme, for bounds from below), `trust` the share of
-    /// each control's range by which it may leave its present value.
-    pub(super) fn program(&self, leaders: &[usize], part: Part, [guard, trust]: [f64; 2]) -> Program {
-        let bounds = vec![[0.0, 0.0]; CONTROLS * self.windows.len()];
-        let mut program = Program { size: self.limit.size, bounds, ..Program::default() };
-        let mut is_set = vec![false; program.bounds.len()];
-        for (index, window) in self.windows.iter().enumerate() {
-            for control in ALL {
-                let at = Self::index(leaders, index, control);
-                let [low, high] = window.bounds[control as usize];
-                let present = window.controls.get(control);
-                let reach = trust * (high - low);
-                let own = [low.max(present - reach), high.min(present + reach)];
-                let bounds = &mut program.bounds[at];
-                *bounds = if is_set[at] { [bounds[0].max(own[0]), bounds[1].min(own[1])] } else { own };
-                is_set[at] = true;
-            }
-        }
-        self.add_steps(&mut program, leaders, part, guard);
-        if !part.free && part.steps == [0, self.instants.len()] {
-            self.add_target(&mut program, leaders);
-        }
-        self.add_corridor(&mut program, leaders);
-        if guard <= 0.0 {
-            let placed: Vec<Placed> = (part.steps[0]..part.steps[1]).map(|step| self.placed(step)).collect();
-            let unjudged_n_m_s = UNJUDGED * self.limit.momentum_n_m_s;
-            relax(&mut program, &placed, &self.windows, &self.departures_n_m, unjudged_n_m_s);
-        }
-        for (index, window) in self.windows.iter().enumerate() {
-            if window.kind != WindowKind::Free {
-                continue;
-            }
-            let days = (window.stop_s - window.start_s) / DAY_S;
-            let own = [Control::AlternateAzimuth, Control::AlternateElevation]
-                .map(|it| Self::index(leaders, index, it));
-            let is_apart = own.iter().any(|at| program.bounds[*at][0] < program.bounds[*at][1]);
-            let alternate = if is_apart { 0.5 * window.bounds[Control::Alternate as usize][1] } else { 0.0 };
-            program.lengths.extend(is_apart.then_some((own, days * alternate)));
-            let pair = [Control::Azimuth, Control::Elevation].map(|it| Self::index(leaders, index, it));
-            let has_tilt = pair.iter().any(|at| program.bounds[*at][0] < program.bounds[*at][1]);
-            if has_tilt {
-                program.lengths.push((pair, days * (1.0 - alternate)));
-                let sides = window.places.iter();
-                program.sums.extend(sides.map(|side| (side.terms(pair), side.most)));
-            }
-            // Behind the tilt: a hundredth of a degree, not to alternate or windmill for nothing.
-            for control in [Control::Alternate, Control::Windmill] {
-                program.magnitudes.push((Self::index(leaders, index, control), SLIGHT * days));
-            }
-        }
-        program
-    }
-
     /// Looks at what the model leaves out about the present controls.
     pub(super) fn look_at_departures(&mut self, sunlit: &SunlitSpacecraft) {
         self.departures_n_m = departures_n_m(sunlit, &self.simulated, &self.windows);
     }
-
-    fn placed(&self, step: usize) -> Placed {
-        let [from, to] = [step.checked_sub(1).map_or(0, |before| self.instants[before]), self.instants[step]];
-        let window = self.cells[to - 1].window;
-        let is_other = |cell: Option<&Cell>| cell.is_none_or(|cell| cell.window != window);
-        Placed {
-            window,
-            begins: is_other(from.checked_sub(1).and_then(|before| self.cells.get(before))),
-            ends: is_other(self.cells.get(to)),
-            duration_s: self.simulated.rows[to].time_s - self.simulated.rows[from].time_s,
-        }
-    }
-
-    fn add_steps(&self, program: &mut Program, leaders: &[usize], part: Part, guard: f64) {
-        let (allowed, shares) = (self.allowed_n_m_s(), self.guard_shares());
-        let start = self.simulated.rows.first().map_or_else(Vector3::zeros, |row| row.momentum_n_m_s);
-        for step in part.steps[0]..part.steps[1] {
-            let from = step.checked_sub(1).map_or(0, |before| self.instants[before]);
-            let to = self.instants[step];
-            let mut begin = match step == part.steps[0] {
-                true if part.free => Begin::Free,
-                true if step == 0 => Begin::At(start),
-                // A part that does not begin freely is the flight's beginning.
-                true => Begin::At(self.simulated.rows[from].momentum_n_m_s),
-                false => Begin::Follows,
-            };
-            if self.dumps.iter().any(|(row, _)| *row == from) {
-                begin = Begin::Free;
-            }
-            let mut drift = Vector3::zeros();
-            let mut terms: Vec<(usize, Vector3<f64>)> = Vec::new();
-            for index in from..to {
-                let cell = &self.cells[index];
-                if let Some(after) = cell.reset {
-                    begin = Begin::At(after);
-                    continue;
-                }
-                drift += cell.gain + self.corrections[index];
-                let controls = &self.windows[cell.window].controls;
-                for control in ALL {
-                    let gain = cell.by_control[control as usize];
-                    if gain == Vector3::zeros() {
-                        continue;
-                    }
-                    drift -= gain * controls.get(control);
-                    let at = Self::index(leaders, cell.window, control);
-                    match terms.iter_mut().find(|(index, _)| *index == at) {
-                        Some((_, sum)) => *sum += gain,
-                        None => terms.push((at, gain)),
-                    }
-                }
-            }
-            let share = if part.free { 1.0 } else { shares[to] };
-            let left_n_m_s = guard * share * self.limit.momentum_n_m_s;
-            let limit = allowed[to] - left_n_m_s - if guard > 0.0 { self.between[step] } else { 0.0 };
-            program.steps.push(Step { begin, drift, terms, limit });
-        }
-    }
-
-    /// Miss of the target as linear in the controls: constant, and by unit of each.
-    pub(super) fn linear_miss(&self, leaders: &[usize]) -> Option<LinearMiss> {
-        let mut constant = self.miss()?;
-        let mut by = vec![Vector3::zeros(); CONTROLS * self.windows.len()];
-        for cell in &self.cells {
-            let controls = &self.windows[cell.window].controls;
-            for control in ALL {
-                let moves = cell.moves.by_control[control as usize];
-                constant -= moves * controls.get(control);
-                by[Self::index(leaders, cell.window, control)] += moves;
-            }
-        }
-        let moved = by.into_iter().enumerate().filter(|(_, by)| *by != Vector3::zeros());
-        Some(LinearMiss { constant, terms: moved.collect() })
-    }
-
-    fn add_target(&self, program: &mut Program, leaders: &[usize]) {
-        let (Some(targeting), Some(miss)) = (&self.targeting, self.linear_miss(leaders)) else { return };
-        program.targets = targeting.target.rows(&miss, self.limit.momentum_n_m_s);
-    }
-
-    /// The light on the cells of every panel within its corridor.
-    fn add_corridor(&self, program: &mut Program, leaders: &[usize]) {
-        for (index, window) in self.windows.iter().enumerate() {
-            let [offset, windmill] =
-                [Control::Offset, Control::Windmill].map(|it| Self::index(leaders, index, it));
-            if program.bounds[windmill][0] >= program.bounds[windmill][1]
-                && program.bounds[offset][0] >= program.bounds[offset][1]
-            {
-                continue;
-            }
-            for &side in &window.sides {
-                let [low, high] = window.offsets_rad;
-                program.sums.push((vec![(offset, 1.0), (windmill, side)], high));
-                program.sums.push((vec![(offset, -1.0), (windmill, -side)], -low));
-            }
-        }
-    }
 }
-
-/// Limits by which nothing is judged, of the limit.
-const UNJUDGED: f64 = 1e3;
-/// Cost of a day in the alternate attitude or of a radian of windmilling, against a day with a radian of tilt.
-const SLIGHT: f64 = 1e-3;
 
 #[cfg(test)]
 mod tests;

@@ -9,21 +9,24 @@
 use std::time::{Duration, Instant};
 
 use nalgebra::Vector3;
-use physics::{constants::DAY_S, momentum::Convention};
+use physics::constants::DAY_S;
 
 pub(super) use super::planned::greatest_n_m_s;
 pub use super::planned::{
     AGREED, Exceeded, Least, MomentumPlan, PlanError, PlanTask, PlannedDump, PlannedRow, Simulates,
+    body_momentum_n_m_s,
 };
 use super::{
     as_it_is::{array_changes, is_better, may_stay, own_windows},
     baseline::OffsetStep,
+    controls::{ALL, Controls},
     counted::{self, Groups},
+    formulation::{Formulation, Part, index},
     model::Model,
     program::{GUARD, Goal, Program, Solution, WHOLE},
     simulated::{MomentumSize, SAME_S, SimulatedFlight},
-    torque::{ALL, Controls, SunlitSpacecraft},
-    windows::{Window, WindowKind},
+    torque::SunlitSpacecraft,
+    windows::Window,
 };
 
 /// Rounds at most.
@@ -44,12 +47,12 @@ const TAKEN: f64 = 1e-4;
 
 /// Gives every window the controls of a solution, and every dump its momentum.
 pub(super) fn give(model: &mut Model, leaders: &[usize], solution: &Solution) {
-    for index in 0..model.windows.len() {
+    for number in 0..model.windows.len() {
         let mut controls = Controls::default();
         for control in ALL {
-            controls = controls.with(control, solution.controls[Model::index(leaders, index, control)]);
+            controls = controls.with(control, solution.controls[index(leaders, number, control)]);
         }
-        model.windows[index].controls = controls;
+        model.windows[number].controls = controls;
     }
     for ((_, after), begin) in model.dumps.iter_mut().zip(&solution.begins) {
         *after = *begin;
@@ -81,9 +84,10 @@ pub(super) fn refine(
     let mut merit_now = f64::INFINITY;
     for step in 0..MAX_STEPS {
         simulates.progress("momentum");
-        let program = model.program(leaders, model.whole(), [GUARD, trust]);
-        if step == 0 && model.is_of(leaders) {
-            merit_now = merit(&program, &model.controls(leaders), exceeded(model), goal);
+        let formulation = Formulation { model, leaders };
+        let program = formulation.program(Part::whole(model), [GUARD, trust]);
+        if step == 0 && formulation.is_kept() {
+            merit_now = merit(&program, &formulation.controls(), exceeded(model), goal);
         }
         let cheapest = (goal == Goal::LeastCost).then(|| program.solve(Goal::LeastCost)).flatten();
         let Some(solution) = cheapest.or_else(|| program.solve(Goal::LeastExcess)) else {
@@ -242,7 +246,7 @@ fn as_it_is(
     simulates: &mut dyn Simulates,
 ) -> Result<Option<MomentumPlan>, PlanError> {
     let limit = &task.limit;
-    if simulated.greatest(limit.size).0 > limit.momentum_n_m_s * (1.0 - limit.margin) {
+    if simulated.greatest(limit.size).0 > limit.kept_n_m_s() {
         return Ok(None);
     }
     let Some(windows) = own_windows(&task.layout, sunlit, simulated) else { return Ok(None) };
@@ -251,7 +255,7 @@ fn as_it_is(
     let mut model = Model::new(sunlit, simulated.clone(), windows, limit.clone());
     model.take(sunlit, &flight, 1.0);
     let mut baseline: Vec<OffsetStep> = Vec::new();
-    for window in model.windows.iter().filter(|it| it.kind != WindowKind::Frozen && !it.sides.is_empty()) {
+    for window in model.windows.iter().filter(|it| it.has_arrays()) {
         let step = OffsetStep { at_s: window.start_s, offset_rad: window.baseline_rad.abs() };
         if baseline.last().is_none_or(|last| last.offset_rad != step.offset_rad) {
             baseline.push(step);
@@ -273,7 +277,7 @@ fn flown(
     let limit = &task.limit;
     let rows = rows(model, &flight);
     let below = rows.iter().all(|row| row.simulated_n_m_s <= row.allowed_n_m_s)
-        && flight.greatest(limit.size).0 <= limit.momentum_n_m_s * (1.0 - limit.margin);
+        && flight.greatest(limit.size).0 <= limit.kept_n_m_s();
     let miss = flight.encountered.as_ref().map(|it| it.miss);
     let meets = task.target.zip(miss).is_none_or(|(target, miss)| target.is_met(&miss));
     let changes = array_changes(&task.layout, &model.windows);
@@ -350,24 +354,6 @@ fn searched(
             model.dumps.clear();
         }
     }
-}
-
-/// Momentum after a dump in the body frame as it stands then, in N m s.
-pub fn body_momentum_n_m_s(
-    sunlit: &SunlitSpacecraft,
-    simulated: &SimulatedFlight,
-    windows: &[Window],
-    dump: &PlannedDump,
-) -> Vector3<f64> {
-    if sunlit.convention == Convention::BodyIntegral {
-        return dump.after_n_m_s;
-    }
-    let Some(row) = simulated.at(dump.at_s) else { return dump.after_n_m_s };
-    let holds = |window: &&Window| window.start_s <= dump.at_s && window.stop_s > dump.at_s;
-    let window = windows.iter().find(holds);
-    let inertial_from_body =
-        window.map_or(row.inertial_from_body, |window| window.inertial_from_body(sunlit, &row, dump.at_s));
-    inertial_from_body.inverse() * dump.after_n_m_s
 }
 
 fn rows(model: &Model, flight: &SimulatedFlight) -> Vec<PlannedRow> {

@@ -1,6 +1,7 @@
 //! A plan: what is planned, what came of it, and how it is simulated.
 
 use nalgebra::Vector3;
+use physics::momentum::Convention;
 
 use super::{
     baseline::{NoOffset, OffsetStep},
@@ -8,6 +9,7 @@ use super::{
     program::Goal,
     simulated::SimulatedFlight,
     target::Target,
+    torque::SunlitSpacecraft,
     windows::{Layout, Window},
 };
 use crate::Failure;
@@ -129,6 +131,24 @@ impl MomentumPlan {
     pub fn difference_n_m_s(&self) -> f64 {
         self.rows.iter().map(|row| row.difference_n_m_s).fold(0.0, f64::max)
     }
+}
+
+/// Momentum after a dump in the body frame as it stands then, in N m s.
+pub fn body_momentum_n_m_s(
+    sunlit: &SunlitSpacecraft,
+    simulated: &SimulatedFlight,
+    windows: &[Window],
+    dump: &PlannedDump,
+) -> Vector3<f64> {
+    if sunlit.convention == Convention::BodyIntegral {
+        return dump.after_n_m_s;
+    }
+    let Some(row) = simulated.at(dump.at_s) else { return dump.after_n_m_s };
+    let holds = |window: &&Window| window.start_s <= dump.at_s && window.stop_s > dump.at_s;
+    let window = windows.iter().find(holds);
+    let inertial_from_body =
+        window.map_or(row.inertial_from_body, |window| window.inertial_from_body(sunlit, &row, dump.at_s));
+    inertial_from_body.inverse() * dump.after_n_m_s
 }
 
 /// Why there is no plan at all.

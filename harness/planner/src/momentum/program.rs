@@ -139,6 +139,57 @@ impl Moved {
     }
 }
 
+/// Columns of the solver's matrix for a goal, group by group.
+struct Columns<'p> {
+    moved: Vec<Moved>,
+    /// First column of the momentum at the ends of the steps, and of that at the free beginnings.
+    momentum: usize,
+    begins: usize,
+    free: usize,
+    excess: Option<usize>,
+    /// First column of a group and what it is of.
+    lengths: (usize, &'p [([usize; 2], f64)]),
+    magnitudes: (usize, Vec<&'p (usize, f64)>),
+    count: usize,
+}
+
+impl<'p> Columns<'p> {
+    fn new(program: &'p Program, goal: Goal) -> Self {
+        let mut count = 0;
+        let moved: Vec<Moved> = program.bounds.iter().map(|bounds| Moved::new(*bounds, &mut count)).collect();
+        let costs = goal == Goal::LeastCost;
+        let lengths = if costs { program.lengths.as_slice() } else { &[] };
+        let magnitudes = program.magnitudes.iter();
+        let magnitudes: Vec<_> =
+            magnitudes.filter(|(index, _)| costs && moved[*index].column.is_some()).collect();
+        let free = program.steps.iter().filter(|step| step.begin == Begin::Free).count();
+        let mut take = |columns: usize| {
+            count += columns;
+            count - columns
+        };
+        Self {
+            momentum: take(3 * program.steps.len()),
+            begins: take(3 * free),
+            free,
+            excess: (goal == Goal::LeastExcess).then(|| take(1)),
+            lengths: (take(lengths.len()), lengths),
+            magnitudes: (take(magnitudes.len()), magnitudes),
+            moved,
+            count,
+        }
+    }
+
+    /// Sum of terms with every control in the middle of its bounds.
+    fn middles(&self, terms: &[(usize, f64)]) -> f64 {
+        terms.iter().map(|(index, by)| by * self.moved[*index].middle).sum()
+    }
+
+    /// Entries of a row with `sign` times these terms.
+    fn entries(&self, terms: &[(usize, f64)], sign: f64) -> impl Iterator<Item = (usize, f64)> {
+        terms.iter().filter_map(move |(index, by)| self.moved[*index].entry(sign * by))
+    }
+}
+
 /// Rows and columns of the solver's matrix, cone by cone.
 #[derive(Default)]
 struct Rows {
@@ -160,6 +211,12 @@ impl Rows {
 }
 
 impl Program {
+    /// Whether the bounds of a control leave a choice.
+    pub(super) fn moves(&self, control: usize) -> bool {
+        let [low, high] = self.bounds[control];
+        low < high
+    }
+
     /// Returns the cost of controls.
     pub(super) fn cost(&self, controls: &[f64]) -> f64 {
         let lengths = self.lengths.iter().map(|([a, b], weight)| weight * controls[*a].hypot(controls[*b]));
@@ -172,26 +229,8 @@ impl Program {
         if self.bounds.iter().any(|[low, high]| low > high || low.is_nan() || high.is_nan()) {
             return None;
         }
-        let mut columns = 0;
-        let moved: Vec<Moved> = self.bounds.iter().map(|bounds| Moved::new(*bounds, &mut columns)).collect();
-        let momentum_at = columns;
-        columns += 3 * self.steps.len();
-        let begin_at = columns;
-        columns += 3 * self.steps.iter().filter(|step| step.begin == Begin::Free).count();
-        let excess = (goal == Goal::LeastExcess).then_some(columns);
-        columns += usize::from(excess.is_some());
-        let lengths = if goal == Goal::LeastCost { self.lengths.as_slice() } else { &[] };
-        let length_at = columns;
-        columns += lengths.len();
-        let magnitudes: Vec<_> = match goal {
-            Goal::LeastCost => {
-                self.magnitudes.iter().filter(|(index, _)| moved[*index].column.is_some()).collect()
-            }
-            Goal::LeastExcess | Goal::Farthest => Vec::new(),
-        };
-        let magnitude_at = columns;
-        columns += magnitudes.len();
-        if columns == 0 {
+        let columns = Columns::new(self, goal);
+        if columns.count == 0 {
             return Some(Solution {
                 controls: Vec::new(),
                 momentum: Vec::new(),
@@ -199,126 +238,64 @@ impl Program {
                 excess: f64::NEG_INFINITY,
             });
         }
-
         let mut rows = Rows::default();
-        self.equations(&mut rows, &moved, momentum_at, begin_at);
-        let equations = rows.right.len();
-        rows.cones.push(ZeroConeT(equations));
-        for column in moved.iter().filter_map(|it| it.column) {
-            rows.row([(column, 1.0)], 1.0);
-            rows.row([(column, -1.0)], 1.0);
-        }
-        let middles = |terms: &[(usize, f64)]| -> f64 {
-            terms.iter().map(|(index, by)| by * moved[*index].middle).sum()
-        };
-        for (terms, most) in &self.sums {
-            let entries = terms.iter().filter_map(|(index, weight)| moved[*index].entry(*weight));
-            rows.row(entries, most - middles(terms));
-        }
-        for (at, (index, _)) in magnitudes.iter().enumerate() {
-            let moved = &moved[*index];
-            for sign in [1.0, -1.0] {
-                let entries = moved.entry(sign).into_iter().chain([(magnitude_at + at, -1.0)]);
-                rows.row(entries, -sign * moved.middle);
-            }
-        }
-        let greatest = self.steps.iter().map(|step| step.limit).fold(0.0, f64::max);
-        if let Some(excess) = excess {
-            rows.row([(excess, -1.0)], greatest);
-        }
-        for target in &self.targets {
-            let constant = target.constant + middles(&target.terms);
-            // In units of its bound: rows of one size.
-            let unit = 1.0 / target.within;
-            for sign in [1.0, -1.0] {
-                let entries = target.terms.iter().filter_map(|(index, by)| moved[*index].entry(sign * by));
-                let terms = entries.map(|(column, by)| (column, by * unit));
-                let wider = excess.map(|column| (column, -target.per_excess * unit));
-                rows.row(terms.chain(wider), 1.0 - sign * constant * unit);
-            }
-        }
-        let inequalities = rows.right.len() - equations;
-        if inequalities > 0 {
-            rows.cones.push(NonnegativeConeT(inequalities));
-        }
-        let ball = |rows: &mut Rows, first: usize, limit: f64| {
-            let excess = excess.map(|column| (column, -1.0));
-            match self.size {
-                MomentumSize::Length => {
-                    rows.row(excess, limit);
-                    for axis in 0..3 {
-                        rows.row([(first + axis, -1.0)], 0.0);
-                    }
-                    rows.cones.push(SecondOrderConeT(4));
-                }
-                MomentumSize::LargestComponent => {
-                    for (axis, sign) in [0, 1, 2].into_iter().flat_map(|axis| [(axis, 1.0), (axis, -1.0)]) {
-                        rows.row([(first + axis, sign)].into_iter().chain(excess), limit);
-                    }
-                    rows.cones.push(NonnegativeConeT(6));
-                }
-            }
-        };
-        let mut begins = begin_at;
-        for (index, step) in self.steps.iter().enumerate() {
-            if step.begin == Begin::Free {
-                ball(&mut rows, begins, step.limit);
-                begins += 3;
-            }
-            ball(&mut rows, momentum_at + 3 * index, step.limit);
-        }
+        self.add_equations(&mut rows, &columns);
+        self.add_inequalities(&mut rows, &columns);
+        self.add_balls(&mut rows, &columns);
+        let (first, lengths) = columns.lengths;
         for (at, (pair, _)) in lengths.iter().enumerate() {
-            rows.row([(length_at + at, -1.0)], 0.0);
+            rows.row([(first + at, -1.0)], 0.0);
             for index in pair {
-                rows.row(moved[*index].entry(-1.0), moved[*index].middle);
+                rows.row(columns.moved[*index].entry(-1.0), columns.moved[*index].middle);
             }
             rows.cones.push(SecondOrderConeT(3));
         }
-
-        let mut cost = vec![0.0; columns];
-        if let Some(excess) = excess {
-            cost[excess] = 1.0;
-        }
-        for (at, (_, weight)) in lengths.iter().enumerate() {
-            cost[length_at + at] = *weight;
-        }
-        for (at, (_, weight)) in magnitudes.iter().enumerate() {
-            cost[magnitude_at + at] = *weight;
-        }
-        if goal == Goal::Farthest {
-            for (index, gain) in &self.gains {
-                if let Some((column, gain)) = moved[*index].entry(*gain) {
-                    cost[column] -= gain;
-                }
-            }
-        }
-        let found = minimised(&cost, rows)?;
+        let found = minimised(&self.objective(goal, &columns), rows)?;
         let vectors = |from: usize, count: usize| -> Vec<Vector3<f64>> {
             found[from..from + 3 * count].chunks_exact(3).map(Vector3::from_column_slice).collect()
         };
-        let momentum = vectors(momentum_at, self.steps.len());
+        let momentum = vectors(columns.momentum, self.steps.len());
         let over =
             momentum.iter().zip(&self.steps).map(|(momentum, step)| self.size.size(momentum) - step.limit);
-        let controls: Vec<f64> =
-            self.bounds.iter().zip(&moved).map(|(bounds, moved)| moved.value(*bounds, &found)).collect();
+        let controls = self.bounds.iter().zip(&columns.moved);
+        let controls: Vec<f64> = controls.map(|(bounds, moved)| moved.value(*bounds, &found)).collect();
         let missed = self.targets.iter().map(|target| target.excess(&controls));
         Some(Solution {
             excess: over.chain(missed).fold(f64::NEG_INFINITY, f64::max),
             controls,
-            begins: vectors(begin_at, (begins - begin_at) / 3),
+            begins: vectors(columns.begins, columns.free),
             momentum,
         })
     }
 
+    /// Cost of a unit of every column.
+    fn objective(&self, goal: Goal, columns: &Columns<'_>) -> Vec<f64> {
+        let mut cost = vec![0.0; columns.count];
+        if let Some(excess) = columns.excess {
+            cost[excess] = 1.0;
+        }
+        for (at, (_, weight)) in columns.lengths.1.iter().enumerate() {
+            cost[columns.lengths.0 + at] = *weight;
+        }
+        for (at, (_, weight)) in columns.magnitudes.1.iter().enumerate() {
+            cost[columns.magnitudes.0 + at] = *weight;
+        }
+        if goal == Goal::Farthest {
+            columns.entries(&self.gains, 1.0).for_each(|(column, gain)| cost[column] -= gain);
+        }
+        cost
+    }
+
     /// h_j - h_(j-1) - sum g x = d.
-    fn equations(&self, rows: &mut Rows, moved: &[Moved], momentum_at: usize, begin_at: usize) {
-        let mut begins = begin_at;
+    fn add_equations(&self, rows: &mut Rows, columns: &Columns<'_>) {
+        let moved = &columns.moved;
+        let mut begins = columns.begins;
         for (index, step) in self.steps.iter().enumerate() {
             let mut known = step.drift;
             let mut before = None;
             match step.begin {
                 Begin::At(momentum) => known += momentum,
-                Begin::Follows => before = index.checked_sub(1).map(|it| momentum_at + 3 * it),
+                Begin::Follows => before = index.checked_sub(1).map(|it| columns.momentum + 3 * it),
                 Begin::Free => {
                     before = Some(begins);
                     begins += 3;
@@ -331,9 +308,76 @@ impl Program {
                 let of_before = before.map(|column| (column + axis, -1.0));
                 let of_controls =
                     step.terms.iter().filter_map(|(control, gain)| moved[*control].entry(-gain[axis]));
-                let own = [(momentum_at + 3 * index + axis, 1.0)];
+                let own = [(columns.momentum + 3 * index + axis, 1.0)];
                 rows.row(own.into_iter().chain(of_before).chain(of_controls), known[axis]);
             }
+        }
+        rows.cones.push(ZeroConeT(rows.right.len()));
+    }
+
+    /// Bounds, sums, magnitudes and targets.
+    fn add_inequalities(&self, rows: &mut Rows, columns: &Columns<'_>) {
+        let equations = rows.right.len();
+        for column in columns.moved.iter().filter_map(|it| it.column) {
+            rows.row([(column, 1.0)], 1.0);
+            rows.row([(column, -1.0)], 1.0);
+        }
+        for (terms, most) in &self.sums {
+            rows.row(columns.entries(terms, 1.0), most - columns.middles(terms));
+        }
+        let (first, magnitudes) = &columns.magnitudes;
+        for (at, (index, _)) in magnitudes.iter().enumerate() {
+            let moved = &columns.moved[*index];
+            for sign in [1.0, -1.0] {
+                let entries = moved.entry(sign).into_iter().chain([(first + at, -1.0)]);
+                rows.row(entries, -sign * moved.middle);
+            }
+        }
+        if let Some(excess) = columns.excess {
+            let greatest = self.steps.iter().map(|step| step.limit).fold(0.0, f64::max);
+            rows.row([(excess, -1.0)], greatest);
+        }
+        for target in &self.targets {
+            let constant = target.constant + columns.middles(&target.terms);
+            // In units of its bound: rows of one size.
+            let unit = 1.0 / target.within;
+            for sign in [1.0, -1.0] {
+                let terms = columns.entries(&target.terms, sign).map(|(column, by)| (column, by * unit));
+                let wider = columns.excess.map(|column| (column, -target.per_excess * unit));
+                rows.row(terms.chain(wider), 1.0 - sign * constant * unit);
+            }
+        }
+        let inequalities = rows.right.len() - equations;
+        if inequalities > 0 {
+            rows.cones.push(NonnegativeConeT(inequalities));
+        }
+    }
+
+    /// Momentum within the limit at every instant, and where a step begins with any.
+    fn add_balls(&self, rows: &mut Rows, columns: &Columns<'_>) {
+        let excess = columns.excess.map(|column| (column, -1.0));
+        let mut ball = |first: usize, limit: f64| match self.size {
+            MomentumSize::Length => {
+                rows.row(excess, limit);
+                for axis in 0..3 {
+                    rows.row([(first + axis, -1.0)], 0.0);
+                }
+                rows.cones.push(SecondOrderConeT(4));
+            }
+            MomentumSize::LargestComponent => {
+                for (axis, sign) in [0, 1, 2].into_iter().flat_map(|axis| [(axis, 1.0), (axis, -1.0)]) {
+                    rows.row([(first + axis, sign)].into_iter().chain(excess), limit);
+                }
+                rows.cones.push(NonnegativeConeT(6));
+            }
+        };
+        let mut begins = columns.begins;
+        for (index, step) in self.steps.iter().enumerate() {
+            if step.begin == Begin::Free {
+                ball(begins, step.limit);
+                begins += 3;
+            }
+            ball(columns.momentum + 3 * index, step.limit);
         }
     }
 }

@@ -7,9 +7,10 @@
 use nalgebra::Vector3;
 
 use super::{
+    controls::{ALL, ALTERNATE_PLACE, Control, Controls},
     program::{Begin, Program},
-    simulated::{FlightRow, SAME_S, SimulatedFlight},
-    torque::{ALL, Control, Controls, SunlitSpacecraft},
+    simulated::{FlightRow, SimulatedFlight},
+    torque::SunlitSpacecraft,
     windows::{Window, WindowKind},
 };
 
@@ -33,9 +34,7 @@ pub(super) fn departures_n_m(
     windows: &[Window],
 ) -> Vec<Vector3<f64>> {
     let of_window = |window: &Window| {
-        let inside = window.start_s - SAME_S..=window.stop_s + SAME_S;
-        let rows: Vec<&FlightRow> =
-            simulated.rows.iter().filter(|row| inside.contains(&row.time_s)).collect();
+        let rows: Vec<&FlightRow> = simulated.within([window.start_s, window.stop_s]).collect();
         if window.kind == WindowKind::Frozen || rows.is_empty() {
             return Vector3::zeros();
         }
@@ -52,12 +51,11 @@ fn departure_n_m(sunlit: &SunlitSpacecraft, row: &FlightRow, window: &Window) ->
     let mut all = vec![Controls::default()];
     for control in ALL {
         let [low, high] = window.bounds[control as usize];
-        let values = match (low < high, control) {
+        let is_of_alternate = control == Control::Alternate || ALTERNATE_PLACE.contains(&control);
+        let values = match (window.moves(control), is_of_alternate) {
             (false, _) => vec![low],
-            (true, Control::Alternate | Control::AlternateAzimuth | Control::AlternateElevation) => {
-                vec![low, high]
-            }
-            (true, _) => vec![low, 0.5 * (low + high), high],
+            (true, true) => vec![low, high],
+            (true, false) => vec![low, 0.5 * (low + high), high],
         };
         let with = |controls: &Controls| -> Vec<Controls> {
             values.iter().map(|value| controls.with(control, *value)).collect()
@@ -88,8 +86,7 @@ pub(super) fn relax(
     program.bounds.extend(departures_n_m.iter().flat_map(|most| most.iter().map(|most| [-most, *most])));
     let mut is_interrupted = false;
     for (step, placed) in program.steps.iter_mut().zip(placed) {
-        let [low, high] = windows[placed.window].bounds[Control::Alternate as usize];
-        let alternates = low < high;
+        let alternates = windows[placed.window].moves(Control::Alternate);
         if placed.begins {
             is_interrupted = false;
         } else if alternates && step.begin != Begin::Follows {

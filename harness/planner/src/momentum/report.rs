@@ -1,18 +1,20 @@
 //! Results of a plan, as `plan.json` and `windows.csv`.
 
 use physics::constants::DAY_S;
-use serde_json::{Map, Value, json};
+use serde::Serialize;
+use serde_json::{Value, json};
 
 use super::{
     baseline::NoOffset,
+    controls::{ARRAYS, Control, PLACE},
     plan::{MomentumPlan, PlanTask, greatest_n_m_s},
     simulated::SAME_S,
-    torque::Control,
     windows::Window,
 };
+use crate::text_table::csv;
 
 /// An event of the mission or of the plan.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlanEvent {
     /// In s of the flight.
     pub at_s: f64,
@@ -23,14 +25,17 @@ pub struct PlanEvent {
 }
 
 /// Change by removing a planned command or adding an activity.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Price {
     /// Name of the command or activity.
     pub name: String,
     /// Removed from the plan, or added to it.
+    #[serde(skip)]
     pub removed: bool,
     /// In s of the flight.
-    pub span_s: [f64; 2],
+    pub start_s: f64,
+    /// In s of the flight.
+    pub stop_s: f64,
     /// Momentum that its span gathers more, the rest being as planned, EME2000, in N m s.
     pub gathered_n_m_s: [f64; 3],
     /// By how much the least greatest |H| that any choice of controls attains from its beginning on rises, in N m s; negative: falls.
@@ -101,35 +106,15 @@ pub fn json(
     task: &PlanTask,
     events: &[PlanEvent],
     (prices, seeds): (&[Price], &[(f64, u32)]),
-    more: Map<String, Value>,
+    more: Option<Value>,
 ) -> Result<String, serde_json::Error> {
     let [planned, simulated] = plan.greatest_n_m_s();
-    let events: Vec<Value> = events
-        .iter()
-        .map(|event| json!({ "at_s": event.at_s, "kinds": event.kinds, "planned": event.planned }))
-        .collect();
-    let priced = |removed: bool| -> Vec<Value> {
-        let prices = prices.iter().filter(|price| price.removed == removed);
-        prices
-            .map(|price| {
-                json!({
-                    "name": price.name,
-                    "start_s": price.span_s[0],
-                    "stop_s": price.span_s[1],
-                    "gathered_n_m_s": price.gathered_n_m_s,
-                    "momentum_n_m_s": price.momentum_n_m_s,
-                    "dumps": price.dumps,
-                })
-            })
-            .collect()
-    };
+    let priced =
+        |removed: bool| -> Vec<&Price> { prices.iter().filter(|price| price.removed == removed).collect() };
     let [momentum, dumps] = of_seeds(seeds);
-    let percentiles = match seeds.len() {
-        0 => Value::Null,
-        count => {
-            json!({ "seeds": count, "momentum_n_m_s": by_percent(momentum), "dumps": by_percent(dumps) })
-        }
-    };
+    let percentiles = (!seeds.is_empty()).then(|| {
+        json!({ "seeds": seeds.len(), "momentum_n_m_s": by_percent(momentum), "dumps": by_percent(dumps) })
+    });
     let mut all = json!({
         "status": status(plan, task),
         "limit_n_m_s": task.limit.momentum_n_m_s,
@@ -148,19 +133,19 @@ pub fn json(
         "activities": priced(false),
         "percentiles": percentiles,
     });
-    if let Value::Object(members) = &mut all {
-        members.extend(more);
+    if let (Value::Object(all), Some(Value::Object(more))) = (&mut all, more) {
+        all.extend(more);
     }
     serde_json::to_string_pretty(&all)
 }
 
-/// `plan.json` of a flyby for which no controls that lead to its aimpoint were found; `more` are its members.
+/// `plan.json` of a flyby for which no controls that lead to its aimpoint were found; `all` are its members.
 ///
 /// # Errors
 /// What JSON does not take.
-pub fn without_plan_json(status: &str, mut more: Map<String, Value>) -> Result<String, serde_json::Error> {
-    more.insert("status".to_owned(), json!(status));
-    serde_json::to_string_pretty(&more)
+pub fn without_plan_json(status: &str, mut all: Value) -> Result<String, serde_json::Error> {
+    all["status"] = json!(status);
+    serde_json::to_string_pretty(&all)
 }
 
 /// `plan.json` where the corridor is empty.
@@ -191,45 +176,19 @@ pub fn greatest_in(plan: &MomentumPlan, window: &Window) -> [f64; 2] {
 }
 
 /// `windows.csv`; `shown_deg` gives an angle in rad as it is simulated.
-///
-/// # Errors
-/// What CSV does not take.
-pub fn windows_csv(plan: &MomentumPlan, shown_deg: &dyn Fn(f64) -> f64) -> Result<Vec<u8>, csv::Error> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record([
-        "start_s",
-        "stop_s",
-        "status",
-        "offset_deg",
-        "windmill_deg",
-        "azimuth_deg",
-        "elevation_deg",
-        "alternate_share",
-        "alternate_azimuth_deg",
-        "alternate_elevation_deg",
-        "momentum_planned_n_m_s",
-        "momentum_simulated_n_m_s",
-    ])?;
-    for window in &plan.windows {
-        let angle = |control| shown_deg(window.controls.get(control)).to_string();
-        let own = window.sun_place_rad(true).map(|angle_rad| shown_deg(angle_rad).to_string());
-        let [planned, simulated] = greatest_in(plan, window).map(|momentum| format!("{momentum:.6}"));
-        writer.write_record([
-            window.start_s.to_string(),
-            window.stop_s.to_string(),
-            window.kind.name().to_owned(),
-            angle(Control::Offset),
-            angle(Control::Windmill),
-            angle(Control::Azimuth),
-            angle(Control::Elevation),
-            format!("{:.6}", window.controls.get(Control::Alternate)),
-            own[0].clone(),
-            own[1].clone(),
-            planned,
-            simulated,
-        ])?;
-    }
-    writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+pub fn windows_csv(plan: &MomentumPlan, shown_deg: &dyn Fn(f64) -> f64) -> String {
+    let row = |window: &Window| {
+        let angles = [window.controls.each(ARRAYS), window.controls.each(PLACE), window.sun_place_rad(true)];
+        let [arrays, place, own] = angles.map(|rad| rad.map(|rad| shown_deg(rad).to_string()));
+        let share = format!("{:.6}", window.controls.get(Control::Alternate));
+        let greatest = greatest_in(plan, window).map(|momentum| format!("{momentum:.6}"));
+        let span = [window.start_s, window.stop_s].map(|time_s| time_s.to_string());
+        let cells = [&span[..], &[window.kind.name().to_owned()], &arrays, &place, &[share], &own, &greatest];
+        cells.concat()
+    };
+    let header = "start_s,stop_s,status,offset_deg,windmill_deg,azimuth_deg,elevation_deg,alternate_share,\
+                  alternate_azimuth_deg,alternate_elevation_deg,momentum_planned_n_m_s,momentum_simulated_n_m_s";
+    csv(header, plan.windows.iter().map(row))
 }
 
 #[cfg(test)]

@@ -204,6 +204,11 @@ impl SimulatedFlight {
         Self { rows, ..self.without_rows() }
     }
 
+    /// Rows within a span.
+    pub fn within(&self, [from_s, to_s]: [f64; 2]) -> impl Iterator<Item = &FlightRow> {
+        self.rows.iter().filter(move |row| (from_s - SAME_S..=to_s + SAME_S).contains(&row.time_s))
+    }
+
     /// Interpolates the row at a time within the flight.
     pub fn at(&self, time_s: f64) -> Option<FlightRow> {
         let with = self.with_rows_at(&[time_s]);
@@ -222,6 +227,11 @@ impl SimulatedFlight {
             (None, Some(row)) | (Some(row), None) => row.momentum_n_m_s,
             (None, None) => Vector3::zeros(),
         }
+    }
+
+    /// Momentum gained over a span, in N m s.
+    pub fn gained_n_m_s(&self, [from_s, to_s]: [f64; 2]) -> Vector3<f64> {
+        self.momentum_n_m_s(to_s) - self.momentum_n_m_s(from_s)
     }
 
     /// Downlinks, from the first row in each to the first behind it, in s.

@@ -9,10 +9,11 @@ use core::ops::AddAssign;
 use nalgebra::{Matrix3, Vector3};
 
 use super::{
+    controls::CONTROLS,
     encountered::Encountered,
     program::{GUARD, TargetRow},
     simulated::FlightRow,
-    torque::{CONTROLS, SunlitSpacecraft},
+    torque::SunlitSpacecraft,
 };
 
 /// B.T in m, B.R in m, arrival in s.

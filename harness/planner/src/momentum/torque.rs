@@ -2,9 +2,7 @@
 //!
 //! The downlink attitude puts the Sun at azimuth A and elevation E of the body frame, the Earth in the XY plane; the alternate one is the
 //! same turned by 180 deg about the Sun line s, so that its torque is T' = 2 s (s.T) - T, its force alike: what lies across the Sun line changes sign.
-//! With a fraction a of the time in the alternate attitude the mean torque is (1 - a) T + a T'; T' has a Sun direction of its own where
-//! a window gives it one. Derivatives by the angles are central
-//! differences of the physics with a step of [`STEP_RAD`] (error of its square, 1e-8 relative); that by the share is exact.
+//! Derivatives by the angles are central differences of the physics with a step of [`STEP_RAD`] (error of its square, 1e-8 relative).
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use physics::{
@@ -21,68 +19,14 @@ use physics::{
     spacecraft::{MassProperties, Material, Spacecraft, SunshadeModel},
 };
 
-use super::simulated::FlightRow;
+use super::{
+    controls::{Control, Controls, PLACE},
+    linear_torque::{LinearLoad, LinearTorque},
+    simulated::FlightRow,
+};
 
 /// Step of the central differences, in rad or as a share.
 const STEP_RAD: f64 = 1e-4;
-/// Number of controls of a window.
-pub const CONTROLS: usize = 7;
-
-/// Controls that a plan chooses in a window, in this order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Control {
-    /// Offset of the arrays from the Sun, in rad.
-    Offset,
-    /// Windmill angle, in rad.
-    Windmill,
-    /// Azimuth of the Sun, in rad.
-    Azimuth,
-    /// Elevation of the Sun, in rad.
-    Elevation,
-    /// Share of the window in the alternate attitude.
-    Alternate,
-    /// Azimuth of the Sun in the alternate attitude, in rad, where it has its own.
-    AlternateAzimuth,
-    /// Elevation of the Sun in the alternate attitude, in rad, where it has its own.
-    AlternateElevation,
-}
-
-/// All controls, in their order.
-pub(super) const ALL: [Control; CONTROLS] = [
-    Control::Offset,
-    Control::Windmill,
-    Control::Azimuth,
-    Control::Elevation,
-    Control::Alternate,
-    Control::AlternateAzimuth,
-    Control::AlternateElevation,
-];
-
-/// How arrays and attitude stand in a window.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Controls(pub [f64; CONTROLS]);
-
-impl Controls {
-    /// One of them.
-    pub fn get(&self, control: Control) -> f64 {
-        self.0[control as usize]
-    }
-
-    /// The same with the Sun where the alternate attitude has it.
-    #[must_use]
-    pub fn alternate(self) -> Self {
-        let [azimuth, elevation] =
-            [Control::AlternateAzimuth, Control::AlternateElevation].map(|it| self.get(it));
-        self.with(Control::Azimuth, azimuth).with(Control::Elevation, elevation)
-    }
-
-    /// The same with another value of one.
-    #[must_use]
-    pub fn with(mut self, control: Control, value: f64) -> Self {
-        self.0[control as usize] = value;
-        self
-    }
-}
 
 /// Attitude of a window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -290,7 +234,7 @@ impl SunlitSpacecraft {
         attitude: Attitude,
         controls: &Controls,
     ) -> Rotation3<f64> {
-        let [azimuth_rad, elevation_rad] = [Control::Azimuth, Control::Elevation].map(|it| controls.get(it));
+        let [azimuth_rad, elevation_rad] = controls.each(PLACE);
         let turns = attitude == Attitude::Downlink;
         let downlink = turns.then(|| self.downlink_attitude(row, azimuth_rad, elevation_rad)).flatten();
         downlink.unwrap_or(row.inertial_from_body)
@@ -342,84 +286,6 @@ impl SunlitSpacecraft {
             },
             alternate: None,
             half_turn: half_turn(&row.to_sun_m),
-        }
-    }
-}
-
-/// Force and torque in one attitude at a time, with their derivatives.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LinearLoad {
-    /// In N m.
-    pub torque: Vector3<f64>,
-    /// By offset, windmill, azimuth, elevation, in N m/rad.
-    pub by_angle: [Vector3<f64>; 4],
-    /// Force with it, EME2000, in N.
-    pub force_n: Vector3<f64>,
-    /// Derivatives of the force by the same angles, in N/rad.
-    pub force_by_angle: [Vector3<f64>; 4],
-    /// Torque by the centre of mass, body frame, in N.
-    pub by_center: Matrix3<f64>,
-}
-
-/// Torque at a time, in N m, with its derivatives.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LinearTorque {
-    /// In the attitude that is not alternate.
-    pub normal: LinearLoad,
-    /// With the Sun where the alternate attitude has it, before its half turn; `None` where that is no other place.
-    pub alternate: Option<LinearLoad>,
-    /// Takes a vector to that turned by 180 deg about the Sun line.
-    pub half_turn: Matrix3<f64>,
-}
-
-impl LinearTorque {
-    /// Mean torque of a share of the alternate attitude, and its derivatives by the controls.
-    pub fn mean(&self, alternate: f64) -> (Vector3<f64>, [Vector3<f64>; CONTROLS]) {
-        self.mean_of(|load| (load.torque, load.by_angle), alternate)
-    }
-
-    /// Mean of torques of the normal and the alternate attitude, the latter given before its half turn, by its share, in N m.
-    pub(super) fn mixed_n_m(
-        &self,
-        normal_n_m: Vector3<f64>,
-        other_n_m: Vector3<f64>,
-        alternate: f64,
-    ) -> Vector3<f64> {
-        normal_n_m * (1.0 - alternate) + self.half_turn * other_n_m * alternate
-    }
-
-    /// Mean force, EME2000, in N, and its derivatives by the controls.
-    pub fn mean_force_n(&self, alternate: f64) -> (Vector3<f64>, [Vector3<f64>; CONTROLS]) {
-        self.mean_of(|load| (load.force_n, load.force_by_angle), alternate)
-    }
-
-    /// Mean torque by the centre of mass, body frame, in N.
-    pub fn mean_by_center(&self, alternate: f64) -> Matrix3<f64> {
-        let turned = self.alternate.unwrap_or(self.normal);
-        self.normal.by_center * (1.0 - alternate) + self.half_turn * turned.by_center * alternate
-    }
-
-    fn mean_of(
-        &self,
-        of: impl Fn(&LinearLoad) -> (Vector3<f64>, [Vector3<f64>; 4]),
-        alternate: f64,
-    ) -> (Vector3<f64>, [Vector3<f64>; CONTROLS]) {
-        let (vector, by_angle) = of(&self.normal);
-        let (other, other_by_angle) = of(self.alternate.as_ref().unwrap_or(&self.normal));
-        let (turned, turned_by_angle) =
-            (self.half_turn * other, other_by_angle.map(|it| self.half_turn * it));
-        let parts = [0, 1, 2, 3].map(|k| [by_angle[k] * (1.0 - alternate), turned_by_angle[k] * alternate]);
-        let [offset, windmill, azimuth, elevation] = parts.map(|[normal, turned]| normal + turned);
-        let by_share = turned - vector;
-        let mean = vector * (1.0 - alternate) + turned * alternate;
-        match self.alternate {
-            None => {
-                (mean, [offset, windmill, azimuth, elevation, by_share, Vector3::zeros(), Vector3::zeros()])
-            }
-            Some(_) => {
-                let [.., [azimuth, own_azimuth], [elevation, own_elevation]] = parts;
-                (mean, [offset, windmill, azimuth, elevation, by_share, own_azimuth, own_elevation])
-            }
         }
     }
 }

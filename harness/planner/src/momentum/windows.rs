@@ -1,172 +1,16 @@
 //! The windows of a flight: what its mission holds fixed, and the free time between in pieces of one length.
 
-use nalgebra::{Rotation3, Unit};
 use physics::spacecraft::Articulation;
 
+pub use super::window::{Window, WindowKind};
 use super::{
     baseline::{NoOffset, OffsetStep, baseline, shared_rad},
+    controls::{ALL, CONTROLS, Control, Controls},
     in_force::{ActiveControls, mean},
-    places::{PlaceSide, places},
+    places::places,
     simulated::{FlightRow, SAME_S, SimulatedFlight},
-    torque::{ALL, Attitude, CONTROLS, Control, Controls, LinearTorque, SunlitSpacecraft},
+    torque::SunlitSpacecraft,
 };
-
-/// Kind of a window.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WindowKind {
-    /// As the mission has it, arrays included.
-    Frozen,
-    /// A command of the mission that stays.
-    Fixed,
-    /// A command of the mission that stays and whose price is reported.
-    Planned,
-    /// A downlink whose controls are sought.
-    Free,
-}
-
-impl WindowKind {
-    /// Its name in tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Frozen => "frozen",
-            Self::Fixed => "fixed",
-            Self::Planned => "planned",
-            Self::Free => "free",
-        }
-    }
-}
-
-/// A window.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Window {
-    /// In s of the flight.
-    pub start_s: f64,
-    /// In s of the flight.
-    pub stop_s: f64,
-    /// Kind.
-    pub kind: WindowKind,
-    /// Row of the mission's command, from 0.
-    pub command: Option<usize>,
-    /// Its parts outside of contacts, where the alternate attitude may be.
-    pub free_of_contact: Vec<[f64; 2]>,
-    /// Least and greatest value of each control.
-    pub bounds: [[f64; 2]; CONTROLS],
-    /// Places of the Sun that antennas and Earth allow throughout, within those bounds; all of them where there is none.
-    pub places: Vec<PlaceSide>,
-    /// Offsets that keep the corridor throughout, with their sign, in rad.
-    pub offsets_rad: [f64; 2],
-    /// Offset of the baseline, with its sign, in rad.
-    pub baseline_rad: f64,
-    /// Senses in which a windmill angle turns panels.
-    pub sides: Vec<f64>,
-    /// Present controls.
-    pub controls: Controls,
-}
-
-impl Window {
-    /// Its ends and those of its times without contact, in s.
-    pub(crate) fn edges_s(&self) -> impl Iterator<Item = f64> {
-        self.free_of_contact.iter().flatten().copied().chain([self.start_s, self.stop_s])
-    }
-
-    /// In s.
-    pub fn length_s(&self) -> f64 {
-        self.stop_s - self.start_s
-    }
-
-    /// Sunlight at a row of the window about its present controls.
-    pub fn linearised(&self, sunlit: &SunlitSpacecraft, row: &FlightRow) -> LinearTorque {
-        match self.kind {
-            WindowKind::Frozen => sunlit.simulated(row),
-            WindowKind::Free if self.is_apart() => sunlit.linearised_apart(row, &self.controls),
-            _ => sunlit.linearised(row, self.attitude(), &self.controls),
-        }
-    }
-
-    /// Whether the alternate attitude has a place of the Sun of its own.
-    pub(super) fn is_apart(&self) -> bool {
-        let own = [Control::AlternateAzimuth, Control::AlternateElevation].map(|it| self.bounds[it as usize]);
-        own.iter().any(|[low, high]| low < high)
-    }
-
-    /// Azimuth and elevation of the Sun in the normal or the alternate attitude, in rad.
-    pub fn sun_place_rad(&self, is_alternate: bool) -> [f64; 2] {
-        let controls =
-            if is_alternate && self.is_apart() { self.controls.alternate() } else { self.controls };
-        [Control::Azimuth, Control::Elevation].map(|it| controls.get(it))
-    }
-
-    /// Its attitude.
-    pub(super) fn attitude(&self) -> Attitude {
-        if self.kind == WindowKind::Free { Attitude::Downlink } else { Attitude::SimulatedFlight }
-    }
-
-    /// The attitude at a time where the geometry is a row's: that row's own where the window is not free.
-    pub fn inertial_from_body(
-        &self,
-        sunlit: &SunlitSpacecraft,
-        row: &FlightRow,
-        at_s: f64,
-    ) -> Rotation3<f64> {
-        let is_inside = |[from_s, to_s]: &[f64; 2]| (*from_s..*to_s).contains(&at_s);
-        let is_alternate = self.kind == WindowKind::Free && self.alternate_spans_s().iter().any(is_inside);
-        let [azimuth_rad, elevation_rad] = self.sun_place_rad(is_alternate);
-        let controls =
-            self.controls.with(Control::Azimuth, azimuth_rad).with(Control::Elevation, elevation_rad);
-        let inertial_from_body = sunlit.inertial_from_body(row, self.attitude(), &controls);
-        if !is_alternate {
-            return inertial_from_body;
-        }
-        let sun_line = Unit::new_normalize(row.to_sun_m);
-        Rotation3::from_axis_angle(&sun_line, core::f64::consts::PI) * inertial_from_body
-    }
-
-    fn free_s(&self) -> f64 {
-        self.free_of_contact.iter().map(|[from, to]| to - from).sum()
-    }
-
-    /// Share of the alternate attitude around a time, and that by unit of the share of the window.
-    pub fn alternate_at(&self, time_s: f64) -> (f64, f64) {
-        let is_free = self.free_of_contact.iter().any(|[from, to]| (*from..=*to).contains(&time_s));
-        let free_s = self.free_s();
-        if !is_free || free_s <= 0.0 {
-            return (0.0, 0.0);
-        }
-        let by_share = self.length_s() / free_s;
-        (self.controls.get(Control::Alternate) * by_share, by_share)
-    }
-
-    /// When the alternate attitude begins and ends: in the middle of every piece of a day at most, so that the drift of the Sun's
-    /// direction within it cancels to the first order (+--+ in halves of 6 h for a share of one half).
-    pub fn alternate_spans_s(&self) -> Vec<[f64; 2]> {
-        let share = self.controls.get(Control::Alternate);
-        let free_s = self.free_s();
-        if share * self.length_s() < SHORTEST_S || free_s <= 0.0 {
-            return Vec::new();
-        }
-        let part = (share * self.length_s() / free_s).min(1.0);
-        let mut spans: Vec<[f64; 2]> = Vec::new();
-        for [from_s, to_s] in &self.free_of_contact {
-            let pieces = ((to_s - from_s) / CYCLE_S - 1e-9).ceil().max(1.0);
-            let long_s = (to_s - from_s) / pieces;
-            for piece in 0..pieces as usize {
-                let middle_s = from_s + (piece as f64 + 0.5) * long_s;
-                let half_s = 0.5 * part * long_s;
-                let span = [middle_s - half_s, middle_s + half_s];
-                match spans.last_mut() {
-                    Some(last) if span[0] - last[1] < SAME_S => last[1] = span[1],
-                    _ => spans.push(span),
-                }
-            }
-        }
-        spans
-    }
-}
-
-/// Longest cycle of normal and alternate attitude, in s.
-const CYCLE_S: f64 = 86_400.0;
-/// Less of the alternate attitude in a window is none, in s.
-const SHORTEST_S: f64 = 60.0;
 
 /// Bounds of the controls.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -349,6 +193,7 @@ impl Layout {
         }
     }
 
+    /// A window of this kind, by the mission's command of this row, on a baseline.
     pub(super) fn window(
         &self,
         [start_s, stop_s]: [f64; 2],
@@ -356,89 +201,89 @@ impl Layout {
         (sunlit, simulated): (&SunlitSpacecraft, &SimulatedFlight),
         steps: &[OffsetStep],
     ) -> Window {
-        let rows = || {
-            simulated
-                .rows
-                .iter()
-                .filter(move |row| (start_s - SAME_S..=stop_s + SAME_S).contains(&row.time_s))
-        };
-        let mut offsets_rad = shared_rad(&self.corridor, rows().map(|row| row.to_sun_m.norm()));
+        let rows: Vec<&FlightRow> = simulated.within([start_s, stop_s]).collect();
+        let corridor_rad = self.corridor_rad(&rows);
         let begun = steps.iter().rev().find(|step| step.at_s <= start_s + SAME_S);
-        let offset_rad = match kind {
-            WindowKind::Frozen => self.frozen_offset_rad,
-            _ => begun.map_or(self.frozen_offset_rad, |step| self.offset_sign * step.offset_rad),
-        };
-        if self.offset_sign < 0.0 {
-            offsets_rad = [-offsets_rad[1], -offsets_rad[0]];
-        }
-        let separation_rad = rows()
-            .map(|row| row.to_sun_m.angle(&row.to_earth_m))
-            .map(|angle_rad| angle_rad.min(core::f64::consts::PI - angle_rad))
-            .fold(f64::INFINITY, f64::min);
-        let free_of_contact = self.free_of_contact(start_s, stop_s);
-        let free_s: f64 = free_of_contact.iter().map(|[from, to]| to - from).sum();
-        let mut share = (free_s / (stop_s - start_s)).min(1.0);
-        if self.contacts_s.is_empty() {
-            share = share.min(1.0 - self.contact_share);
-        }
-        let mut bounds = [[0.0; 2]; CONTROLS];
-        bounds[Control::Offset as usize] = [offset_rad; 2];
-        if kind != WindowKind::Frozen && self.sides.iter().any(|side| *side != 0.0) {
-            bounds[Control::Windmill as usize] =
-                [-self.control_bounds.windmill_rad, self.control_bounds.windmill_rad];
-        }
-        if kind == WindowKind::Free {
-            let change_rad = self.control_bounds.offset_rad;
-            if !self.sides.is_empty() {
-                bounds[Control::Offset as usize] = [
-                    (offset_rad - change_rad).max(offsets_rad[0].min(offset_rad)),
-                    (offset_rad + change_rad).min(offsets_rad[1].max(offset_rad)),
-                ];
-            }
-            let azimuth_rad = self.control_bounds.azimuth_rad;
-            let elevation_rad = self.control_bounds.elevation_rad.min((separation_rad - LEFT_RAD).max(0.0));
-            bounds[Control::Azimuth as usize] = [-azimuth_rad, azimuth_rad];
-            bounds[Control::Elevation as usize] = [-elevation_rad, elevation_rad];
-            bounds[Control::Alternate as usize] = [0.0, self.control_bounds.alternate.min(share)];
-            if self.control_bounds.alternate_apart && self.control_bounds.alternate.min(share) > 0.0 {
-                bounds[Control::AlternateAzimuth as usize] = bounds[Control::Azimuth as usize];
-                bounds[Control::AlternateElevation as usize] = bounds[Control::Elevation as usize];
-            }
-        }
-        let mut controls = Controls::default().with(Control::Offset, offset_rad);
-        let in_force = (kind == WindowKind::Free).then(|| mean(&self.in_force, [start_s, stop_s])).flatten();
-        if let Some(in_force) = in_force {
-            // Off the baseline or as it is: that of a shorter flight may be another one.
-            if self.control_bounds.offset_rad > 0.0 {
-                let present_rad = in_force.get(Control::Offset).min(offsets_rad[1]).max(offsets_rad[0]);
-                let [low, high] = &mut bounds[Control::Offset as usize];
-                (*low, *high) = (low.min(present_rad), high.max(present_rad));
-            }
-            for control in ALL {
-                let [low, high] = bounds[control as usize];
-                controls = controls.with(control, in_force.get(control).min(high).max(low));
-            }
-        }
-        let mut allowed = Vec::new();
-        if kind == WindowKind::Free && self.downlinks_s.is_some() {
-            let all: Vec<&FlightRow> = rows().collect();
-            let sun_bounds = [self.control_bounds.azimuth_rad, self.control_bounds.elevation_rad];
-            allowed = places(sunlit, &all, sun_bounds);
-            bounds[Control::Azimuth as usize] = [-sun_bounds[0], sun_bounds[0]];
-            bounds[Control::Elevation as usize] = [-sun_bounds[1], sun_bounds[1]];
-        }
-        Window {
+        let begun = begun.filter(|_| kind != WindowKind::Frozen);
+        let offset_rad = begun.map_or(self.frozen_offset_rad, |step| self.offset_sign * step.offset_rad);
+        let mut window = Window {
             start_s,
             stop_s,
             kind,
             command,
-            free_of_contact: if kind == WindowKind::Free { free_of_contact } else { Vec::new() },
-            bounds,
-            places: allowed,
-            offsets_rad: [offsets_rad[0].min(offset_rad), offsets_rad[1].max(offset_rad)],
+            free_of_contact: Vec::new(),
+            bounds: [[0.0; 2]; CONTROLS],
+            places: Vec::new(),
+            offsets_rad: [corridor_rad[0].min(offset_rad), corridor_rad[1].max(offset_rad)],
             baseline_rad: offset_rad,
             sides: self.sides.clone(),
-            controls,
+            controls: Controls::default().with(Control::Offset, offset_rad),
+        };
+        window.bounds[Control::Offset as usize] = [offset_rad; 2];
+        if kind != WindowKind::Frozen && self.sides.iter().any(|side| *side != 0.0) {
+            window.bounds[Control::Windmill as usize] = either_way(self.control_bounds.windmill_rad);
+        }
+        if kind == WindowKind::Free {
+            self.open(&mut window, &rows);
+            self.begin(&mut window, corridor_rad);
+            if self.downlinks_s.is_some() {
+                let [azimuth_rad, elevation_rad] =
+                    [self.control_bounds.azimuth_rad, self.control_bounds.elevation_rad];
+                window.places = places(sunlit, &rows, [azimuth_rad, elevation_rad]);
+                window.bounds[Control::Azimuth as usize] = either_way(azimuth_rad);
+                window.bounds[Control::Elevation as usize] = either_way(elevation_rad);
+            }
+        }
+        window
+    }
+
+    /// Offsets that keep the corridor at all of these rows, with their sign, in rad.
+    pub(super) fn corridor_rad(&self, rows: &[&FlightRow]) -> [f64; 2] {
+        let [low, high] = shared_rad(&self.corridor, rows.iter().map(|row| row.to_sun_m.norm()));
+        if self.offset_sign < 0.0 { [-high, -low] } else { [low, high] }
+    }
+
+    /// Gives a free window the bounds of its controls.
+    fn open(&self, window: &mut Window, rows: &[&FlightRow]) {
+        let within = &self.control_bounds;
+        window.free_of_contact = self.free_of_contact(window.start_s, window.stop_s);
+        let mut share = (window.free_s() / window.length_s()).min(1.0);
+        if self.contacts_s.is_empty() {
+            share = share.min(1.0 - self.contact_share);
+        }
+        let separations_rad = rows.iter().map(|row| row.to_sun_m.angle(&row.to_earth_m));
+        let separation_rad = separations_rad
+            .map(|angle_rad| angle_rad.min(core::f64::consts::PI - angle_rad))
+            .fold(f64::INFINITY, f64::min);
+        let elevation_rad = within.elevation_rad.min((separation_rad - LEFT_RAD).max(0.0));
+        let share = within.alternate.min(share);
+        let bounds = &mut window.bounds;
+        if !self.sides.is_empty() {
+            let ([low, high], offset_rad) = (window.offsets_rad, window.baseline_rad);
+            bounds[Control::Offset as usize] =
+                [(offset_rad - within.offset_rad).max(low), (offset_rad + within.offset_rad).min(high)];
+        }
+        bounds[Control::Azimuth as usize] = either_way(within.azimuth_rad);
+        bounds[Control::Elevation as usize] = either_way(elevation_rad);
+        bounds[Control::Alternate as usize] = [0.0, share];
+        if within.alternate_apart && share > 0.0 {
+            bounds[Control::AlternateAzimuth as usize] = bounds[Control::Azimuth as usize];
+            bounds[Control::AlternateElevation as usize] = bounds[Control::Elevation as usize];
+        }
+    }
+
+    /// Gives a free window the controls of the plan in force, where there is one.
+    fn begin(&self, window: &mut Window, [low_rad, high_rad]: [f64; 2]) {
+        let Some(in_force) = mean(&self.in_force, [window.start_s, window.stop_s]) else { return };
+        // Off the baseline or as it is: that of a shorter flight may be another one.
+        if self.control_bounds.offset_rad > 0.0 {
+            let present_rad = in_force.get(Control::Offset).min(high_rad).max(low_rad);
+            let [low, high] = &mut window.bounds[Control::Offset as usize];
+            (*low, *high) = (low.min(present_rad), high.max(present_rad));
+        }
+        for control in ALL {
+            let [low, high] = window.bounds[control as usize];
+            window.controls = window.controls.with(control, in_force.get(control).min(high).max(low));
         }
     }
 
@@ -459,6 +304,11 @@ impl Layout {
         }
         free
     }
+}
+
+/// As far either way.
+fn either_way(most: f64) -> [f64; 2] {
+    [-most, most]
 }
 
 /// Times, kind and command of a window.

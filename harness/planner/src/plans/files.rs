@@ -1,38 +1,14 @@
-//! The files of a plan, and those of a planned burn.
+//! The files of a plan.
 
 use std::{
     error::Error,
     path::{Path, PathBuf},
 };
 
-use ::files::{Destination, OutputFolder};
+use ::files::Destination;
 
-use super::picture;
-use crate::spin::{PlannedBurn, start_table};
-
-const OPTION: &str = "--output";
-
-/// Writes `burn.csv`, `burn.json`, `start.toml` and `burn.svg` into the folder, which is created if missing; gives their
-/// paths.
-///
-/// # Errors
-/// A file that cannot be written, or that is the spacecraft's.
-pub fn write(
-    folder: &Path,
-    spacecraft: Option<&Path>,
-    burn: &PlannedBurn,
-) -> Result<Vec<PathBuf>, Box<dyn Error>> {
-    let contents = [
-        ("burn.csv", String::from_utf8(burn.to_csv()?)?),
-        ("burn.json", String::from_utf8(burn.to_json()?)?),
-        ("start.toml", start_table(&burn.start_values())),
-        ("burn.svg", picture::svg(burn)?),
-    ];
-    let _folder = OutputFolder::create(folder, OPTION)?;
-    let inputs: Vec<&Path> = spacecraft.into_iter().collect();
-    let contents = contents.map(|(name, text)| (name, terminal::unsigned_zeros(&text).into_owned()));
-    write_all(folder, &contents, &inputs)
-}
+/// Option that names the folder.
+pub(super) const OPTION: &str = "--output";
 
 /// Begins the TOML files of a plan.
 const HEAD: &str = "# Written by `heliotorque plan`, which replaces it when it plans again.\n";

@@ -1,21 +1,16 @@
 //! Flights of a planned mission through its FMU: as it is, by the timeline of a plan, with other values at the start.
 
-use std::{
-    path::Path,
-    sync::{Mutex, PoisonError},
-};
+use std::{ops::Deref, path::Path};
 
-use campaign::run::{Run, Settings, Simulated};
-use files::Scratch;
-use fmi::{Fmu, InputTable, Instance, InstanceOptions, Options, Recording, Value};
+use campaign::run::{Run, Simulated};
+use fmi::{Recording, Value};
 use inputs::{
     mission::{Inputs, Mission},
     plan::PlanFile,
     reading::At,
     values,
-    variables::{NEVER_N_M_S, elements, item, selected},
+    variables::{NEVER_N_M_S, elements},
 };
-use isolation::interrupt;
 use nalgebra::Vector3;
 use packing::assembly::spacecraft_of;
 use physics::{
@@ -31,6 +26,7 @@ use crate::{
         simulated::SimulatedFlight,
         torque::SunlitSpacecraft,
     },
+    simulation::{Flight, Simulation},
 };
 
 /// Error text for a time outside the mission.
@@ -44,6 +40,7 @@ const STEP_S: f64 = 3600.0;
 const ORBIT_STEP_S: f64 = 600.0;
 /// A flight whose last row is nearer to its planet came to it: farther than any goes in such a step.
 const NEAR_M: f64 = 1e8;
+
 /// Extent of a mission that is simulated and recorded.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Requested<'a> {
@@ -62,21 +59,19 @@ pub(super) struct Requested<'a> {
 /// A mission that can be simulated.
 pub(super) struct SimulatedMission {
     pub mission: Mission,
-    pub fmu: Fmu,
-    pub sets: Vec<(String, Value)>,
-    pub inputs: Option<InputTable>,
-    /// Its own communication step, in s.
-    pub step_s: f64,
+    simulation: Simulation,
     /// Distance of the rows that plans read, in s, where a plan gives one.
     pub rows_s: Option<f64>,
-    pub start_s: f64,
-    pub stop_s: f64,
     /// Epoch of time 0 in s past J2000 TDB, where the mission begins at a date.
     pub zero_epoch_s: Option<f64>,
-    // Idle instances, at most one for each thread.
-    idle: Mutex<Vec<Instance>>,
-    // The FMU's folder, as long as it is in use.
-    _folder: Option<Scratch>,
+}
+
+impl Deref for SimulatedMission {
+    type Target = Simulation;
+
+    fn deref(&self) -> &Simulation {
+        &self.simulation
+    }
 }
 
 impl SimulatedMission {
@@ -97,27 +92,17 @@ impl SimulatedMission {
         let Some(mission) = simulated.mission.clone() else {
             return Err(format!("{}: found no mission, allowed: one (.toml)", file.display()).into());
         };
-        let (fmu, settings, folder) = Settings::of_fmu(&simulated, MODEL)?;
-        if item(fmu.description(), &settings.sets, "attitude.source").is_none() {
-            let (shown, found) = (file.display(), &fmu.description().model_name);
+        let simulation = Simulation::open(&simulated, MODEL)?;
+        let zero_epoch_s = simulated.zero_epoch_s(simulation.start_s);
+        let opened = Self { mission, simulation, rows_s: None, zero_epoch_s };
+        if opened.values().item("attitude.source").is_none() {
+            let (shown, found) = (file.display(), &opened.fmu.description().model_name);
             return Err(format!(
                 "{shown}: model: found {found}, allowed: {MODEL}: a plan is for its missions"
             )
             .into());
         }
-        Ok(Self {
-            mission,
-            fmu,
-            start_s: settings.times.start_s,
-            step_s: settings.times.step_s,
-            rows_s: None,
-            stop_s: settings.times.stop_s,
-            zero_epoch_s: simulated.zero_epoch_s(settings.times.start_s),
-            sets: settings.sets,
-            inputs: settings.inputs,
-            idle: Mutex::default(),
-            _folder: folder,
-        })
+        Ok(opened)
     }
 
     /// Refuses a mission whose downlinks cannot be planned: a plant must follow them ideally, and choose no places of the Sun itself.
@@ -139,7 +124,7 @@ impl SimulatedMission {
             return Err(at.problem(&self.mission.file, what).into());
         }
         for (name, allowed) in [("attitude.source", "guided"), ("momentum.strategy", "dumpsOnly")] {
-            let found = item(self.fmu.description(), &self.sets, name).unwrap_or("none");
+            let found = self.values().item(name).unwrap_or("none");
             if found != allowed {
                 return Err(format!("{shown}: {name}: found {found}, allowed: {allowed}, for a plan").into());
             }
@@ -288,47 +273,18 @@ impl SimulatedMission {
         &self,
         requested: &Requested<'_>,
     ) -> Result<(Recording, Option<String>), Failure> {
-        let description = self.fmu.description();
         let step_s = if self.is_in_orbit() { ORBIT_STEP_S } else { STEP_S };
         let stop_s = requested.stop_s.unwrap_or(self.stop_s);
-        let mut goes_on = |_: f64| !interrupt::raised();
-        let options = Options {
-            start_s: Some(self.start_s),
-            stop_s: Some(stop_s),
-            step_s: Some(
-                requested.step_s.or(self.rows_s).unwrap_or(step_s).min((stop_s - self.start_s) / 8.0),
-            ),
-            sets: [&self.sets, requested.sets].concat(),
-            inputs: self.inputs.as_ref(),
-            record: Some(selected(description, requested.outputs, fmi::select_outputs)?),
-            record_at_s: requested.at_s,
-            apart: description.variables.iter().position(|it| it.name == "dump.count"),
-            progress: Some(&mut goes_on),
-            ..Options::default()
-        };
-        let mut instance = self.instance()?;
-        let simulated = fmi::simulate_instance(&mut instance, options);
-        if simulated.is_ok() {
-            self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(instance);
-        }
-        if interrupt::raised() {
-            return Err("interrupted".into());
-        }
-        Ok(match simulated {
-            Ok((recording, _)) => (recording, None),
-            Err(stopped) => {
-                let error = fmi::Error::chain(&stopped);
-                (stopped.partial, Some(error))
-            }
-        })
-    }
-
-    /// An idle instance after a reset, which keeps its ephemeris cache; otherwise a new one.
-    fn instance(&self) -> Result<Instance, fmi::Error> {
-        let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        match idle {
-            Some(mut instance) => instance.reset().map(|()| instance),
-            None => Instance::new(&self.fmu, "run", &InstanceOptions::default()),
-        }
+        let step_s = requested.step_s.or(self.rows_s).unwrap_or(step_s);
+        let flown = self.fly(&Flight {
+            sets: requested.sets,
+            outputs: requested.outputs,
+            step_s: step_s.min((stop_s - self.start_s) / 8.0),
+            at_s: requested.at_s,
+            stop_s,
+            dumps_apart: true,
+            progress: &|_| (),
+        })?;
+        Ok((flown.recording, flown.ended.err()))
     }
 }

@@ -2,15 +2,14 @@
 
 use std::time::{Duration, Instant};
 
-use fmi::{Options, Recording, Value};
-use inputs::variables::{NEVER_N_M_S, elements, numbers, selected, vectors};
-use isolation::interrupt;
+use fmi::{Recording, Value};
+use inputs::variables::{NEVER_N_M_S, elements, numbers, vectors};
 use nalgebra::Vector3;
 use packing::instance::vector;
 use physics::plant::LEAST_DUMP_THRESHOLD_N_M_S;
 
 use super::sized::SizedSpacecraft;
-use crate::Failure;
+use crate::{Failure, simulation::Flight};
 
 /// Communication points of an orbit at least, and the longest step, in s.
 const POINTS_OF_ORBIT: f64 = 48.0;
@@ -48,14 +47,12 @@ pub(super) fn undumped(
     others: &[(String, Value)],
     is_quiet: bool,
 ) -> Result<Recording, Failure> {
-    let patterns = ["momentum.*", "attitude.q", "attitude.rate", "torque.total"].map(str::to_owned);
-    let record = selected(sized.fmu.description(), &patterns, fmi::select_outputs)?;
     let bar = terminal::progress(sized.span_s as u64, "s without dumps", is_quiet);
     let undumped = values(sized, Vector3::repeat(NEVER_N_M_S), "dumpsOnly")?;
     let sets = [undumped, others.to_vec()].concat();
-    let recording = simulated(sized, sets, record, &mut |time_s| {
-        bar.set_position((time_s - sized.start_s) as u64);
-    });
+    let outputs = ["momentum.*", "attitude.q", "attitude.rate", "torque.total"];
+    let shown = |time_s: f64| bar.set_position((time_s - sized.simulation.start_s) as u64);
+    let recording = simulated(sized, &sets, &outputs, &shown);
     bar.finish_and_clear();
     recording
 }
@@ -91,9 +88,8 @@ pub(super) fn sweep(
 }
 
 fn dumped(sized: &SizedSpacecraft, threshold_n_m_s: Vector3<f64>, strategy: &str) -> Result<Dumped, Failure> {
-    let patterns = ["dump.count", "dump.impulse", "propellant.used"].map(str::to_owned);
-    let record = selected(sized.fmu.description(), &patterns, fmi::select_outputs)?;
-    let simulated = simulated(sized, values(sized, threshold_n_m_s, strategy)?, record, &mut |_| {})?;
+    let outputs = ["dump.count", "dump.impulse", "propellant.used"];
+    let simulated = simulated(sized, &values(sized, threshold_n_m_s, strategy)?, &outputs, &|_| ())?;
     let count = numbers(&simulated, "dump.count")?;
     let impulses_n_m_s = vectors(&simulated, "dump.impulse")?;
     let dumps = count.windows(2).enumerate().filter(|(_, pair)| pair[1] > pair[0]);
@@ -117,50 +113,37 @@ fn scaled_n_m_s(threshold_n_m_s: f64, scale: f64) -> f64 {
     }
 }
 
-/// The spacecraft's values, with a threshold and a strategy.
+/// A threshold and a strategy as values.
 fn values(
     sized: &SizedSpacecraft,
     threshold_n_m_s: Vector3<f64>,
     strategy: &str,
 ) -> Result<Vec<(String, Value)>, Failure> {
-    let mut sets = sized.sets.clone();
-    sets.extend(elements("dump.threshold", threshold_n_m_s));
+    let mut sets: Vec<_> = elements("dump.threshold", threshold_n_m_s).collect();
     let strategy = format!("momentum.strategy={strategy}");
-    sets.extend(fmi::parse_assignment(sized.fmu.description(), &strategy)?);
+    sets.extend(fmi::parse_assignment(sized.simulation.fmu.description(), &strategy)?);
     Ok(sets)
 }
 
 /// One flight; every dump has a row of its own.
 fn simulated(
     sized: &SizedSpacecraft,
-    sets: Vec<(String, Value)>,
-    record: Vec<usize>,
-    progress: &mut dyn FnMut(f64),
+    sets: &[(String, Value)],
+    outputs: &[&str],
+    progress: &dyn Fn(f64),
 ) -> Result<Recording, Failure> {
-    let description = sized.fmu.description();
-    let position = |name: &str| description.variables.iter().position(|variable| variable.name == name);
-    let counts_dumps = record.iter().any(|at| Some(*at) == position("dump.count"));
-    let step_s = if counts_dumps {
+    let dumps_apart = outputs.contains(&"dump.count");
+    let step_s = if dumps_apart {
         STEP_OF_DUMPS_S
     } else {
         let longest_s = LONGEST_STEP_S.min(sized.period_s / POINTS_OF_ORBIT).max(sized.span_s / ROWS);
         // A whole number of steps between unloadings, so that rows end the windows.
         sized.every_s / (sized.every_s / longest_s).ceil()
     };
-    let mut goes_on = |time_s: f64| {
-        progress(time_s);
-        !interrupt::raised()
-    };
-    let options = Options {
-        start_s: Some(sized.start_s),
-        stop_s: Some(sized.start_s + sized.span_s),
-        step_s: Some(step_s),
-        sets,
-        inputs: sized.inputs.as_ref(),
-        record: Some(record),
-        apart: position("dump.count").filter(|_| counts_dumps),
-        progress: Some(&mut goes_on),
-        ..Options::default()
-    };
-    Ok(fmi::simulate(&sized.fmu, options)?.recording)
+    let outputs: Vec<String> = outputs.iter().map(|name| (*name).to_owned()).collect();
+    let stop_s = sized.simulation.start_s + sized.span_s;
+    let flight = Flight { sets, outputs: &outputs, step_s, at_s: None, stop_s, dumps_apart, progress };
+    let flown = sized.simulation.fly(&flight)?;
+    flown.ended?;
+    Ok(flown.recording)
 }

@@ -35,10 +35,11 @@ use unloading::Unloadings;
 pub fn run(arguments: &Size) -> Outcome {
     let ([picture, table_file], _folder) = destinations(arguments)?;
     let sized = SizedSpacecraft::open(arguments)?;
-    let found = found(&sized, arguments)?;
+    let found = found(&sized, arguments);
     if interrupt::raised() {
         return Ok(Answer::Interrupted);
     }
+    let found = found?;
     let svg = picture::svg(&sized, &found.sweep)?;
     let csv = table::csv(&sized, &found.sweep);
     if arguments.json {

@@ -87,7 +87,8 @@ impl<'a> Demands<'a> {
         slews: &'a Option<[Slew; 3]>,
         margin: f64,
     ) -> Result<Self, fmi::Error> {
-        let is_opposite = item(sized.fmu.description(), &sized.sets, "dump.reinitTo") == Some("opposite");
+        let is_opposite = item(sized.simulation.fmu.description(), &sized.simulation.sets, "dump.reinitTo")
+            == Some("opposite");
         let room = if is_opposite { 1.0 + sized.started()?.get_real("dump.reinitFraction")? } else { 1.0 };
         Ok(Self { sized, slews, margin, room })
     }

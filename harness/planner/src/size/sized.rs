@@ -1,8 +1,8 @@
 //! Spacecraft that is sized: the FMU of a file, its spacecraft, and the values that it is simulated with.
 
-use campaign::run::{Run, Settings, Simulated};
+use campaign::run::{Run, Simulated};
 use files::Scratch;
-use fmi::{Fmu, InputTable, Instance, Value};
+use fmi::{Fmu, Instance, Value};
 use inputs::{
     kind::FileKind,
     mission::Inputs,
@@ -21,7 +21,7 @@ use physics::{
 };
 
 use super::options::Size;
-use crate::Failure;
+use crate::{Failure, simulation::Simulation};
 
 /// The model that is simulated.
 const MODEL: &str = "MomentumPlant";
@@ -35,11 +35,8 @@ const MAX_YEARS: f64 = 50.0;
 
 /// A spacecraft ready for simulation.
 pub(super) struct SizedSpacecraft {
-    pub fmu: Fmu,
+    pub simulation: Simulation,
     pub spacecraft: Spacecraft,
-    pub sets: Vec<(String, Value)>,
-    pub inputs: Option<InputTable>,
-    pub start_s: f64,
     pub span_s: f64,
     /// Period of the orbit at the start, in s.
     pub period_s: f64,
@@ -53,49 +50,44 @@ pub(super) struct SizedSpacecraft {
     pub is_body_integral: bool,
     /// Strategies of unloading by sunlight where there are downlinks, by item; the first is dumps alone.
     pub strategies: Vec<String>,
-    // The FMU's folder and a mission's packed FMU, as long as they are in use.
-    _folders: [Option<Scratch>; 2],
+}
+
+/// Packs a file; whether it is a mission with inputs, timeline or ephemeris, which are those of its own time.
+fn opened(arguments: &Size, file: &str) -> Result<(Simulation, bool), Failure> {
+    let text = files::read_text(&arguments.file)?;
+    if FileKind::recognize(&text) != Some(FileKind::Mission) {
+        FileKind::Spacecraft.check(file, &text)?;
+        let source = Source::open(arguments.template.as_deref(), &[])?;
+        let parts = Parts { spacecraft: Some(&arguments.file), model: Some(MODEL), ..Parts::default() };
+        let folder = Scratch::new()?;
+        assemble(&source, &parts)?.entries.write_below(folder.path())?;
+        let fmu = Fmu::open(folder.path())?;
+        return Ok((Simulation::new(fmu, Some(folder), [0.0, YEAR_S]), false));
+    }
+    let (fmu, template) = (arguments.file.clone(), arguments.template.clone());
+    let simulated = Simulated::new(&Run { fmu, template, ..Run::default() })?;
+    let mut simulation = Simulation::open(&simulated, "a spacecraft or an FMU")?;
+    let is_of_its_time = simulated.mission.as_ref().is_some_and(|mission| {
+        let has_table = matches!(mission.inputs, Some(Inputs::File(_))) || simulation.inputs.is_some();
+        mission.fmu.is_none() && (mission.timeline.is_some() || mission.ephemeris.is_some() || has_table)
+    });
+    if !is_of_its_time {
+        simulation.stop_s = simulation.start_s + YEAR_S;
+    }
+    Ok((simulation, is_of_its_time))
 }
 
 impl SizedSpacecraft {
     /// Reads the file, packs it and starts it once.
     pub(super) fn open(arguments: &Size) -> Result<Self, Failure> {
-        let text = files::read_text(&arguments.file)?;
         let file = arguments.file.display().to_string();
-        let is_mission = FileKind::recognize(&text) == Some(FileKind::Mission);
-        let (fmu, mut sets, inputs, ([start_s, stop_s], is_of_its_time), folders) = match is_mission {
-            false => {
-                FileKind::Spacecraft.check(&file, &text)?;
-                let source = Source::open(arguments.template.as_deref(), &[])?;
-                let parts =
-                    Parts { spacecraft: Some(&arguments.file), model: Some(MODEL), ..Parts::default() };
-                let folder = Scratch::new()?;
-                assemble(&source, &parts)?.entries.write_below(folder.path())?;
-                let fmu = Fmu::open(folder.path())?;
-                (fmu, Vec::new(), None, ([0.0, YEAR_S], false), [Some(folder), None])
-            }
-            true => {
-                let template = arguments.template.clone();
-                let run = Run { fmu: arguments.file.clone(), template, ..Run::default() };
-                let simulated = Simulated::new(&run)?;
-                let (fmu, settings, folder) = Settings::of_fmu(&simulated, "a spacecraft or an FMU")?;
-                let is_of_its_time = simulated.mission.as_ref().is_some_and(|mission| {
-                    let has_table =
-                        matches!(mission.inputs, Some(Inputs::File(_))) || settings.inputs.is_some();
-                    mission.fmu.is_none()
-                        && (mission.timeline.is_some() || mission.ephemeris.is_some() || has_table)
-                });
-                let start_s = settings.times.start_s;
-                let stop_s = if is_of_its_time { settings.times.stop_s } else { start_s + YEAR_S };
-                let times_s = ([start_s, stop_s], is_of_its_time);
-                (fmu, settings.sets, settings.inputs, times_s, [folder, None])
-            }
-        };
-        let description = fmu.description();
-        sets.extend(assigned(description, &arguments.set)?);
-        check_plant(&file, description, &sets)?;
-        let mut started = instance::started(&fmu, "size", start_s, &sets)?;
-        let is_about_sun = item(description, &sets, "orbit.center") == Some("sun");
+        let (mut simulation, is_of_its_time) = opened(arguments, &file)?;
+        let description = simulation.fmu.description();
+        simulation.sets.extend(assigned(description, &arguments.set)?);
+        let Simulation { ref sets, start_s, stop_s, .. } = simulation;
+        check_plant(&file, description, sets)?;
+        let mut started = instance::started(&simulation.fmu, "size", start_s, sets)?;
+        let is_about_sun = item(description, sets, "orbit.center") == Some("sun");
         let period_s = period_s(is_about_sun, &mut started)?;
         // As it acts: by default it follows the centre.
         let phase = description.variables.iter().find(|it| it.name == PHASE);
@@ -103,21 +95,16 @@ impl SizedSpacecraft {
         let phase: Vec<_> = phase.into_iter().map(|value| (PHASE.to_owned(), value)).collect();
         let is_in_cruise = item(description, &phase, PHASE) == Some("cruise");
         let bias_n_m_s = vector(&mut started, "momentum.bias")?;
-        let is_body_integral = item(description, &sets, "momentum.convention") == Some("bodyIntegral");
         drop(started);
         let span_s = arguments.duration.unwrap_or(stop_s - start_s);
         if span_s > MAX_YEARS * YEAR_S {
-            let [found, option] = [span_s / YEAR_S, MAX_YEARS].map(terminal::short);
-            return Err(format!(
-                "{file}: found a flight of {found} years, allowed: up to {option}: --duration"
-            )
-            .into());
+            let [found, most] = [span_s / YEAR_S, MAX_YEARS].map(terminal::short);
+            let what = format!("found a flight of {found} years, allowed: up to {most}: --duration");
+            return Err(format!("{file}: {what}").into());
         }
-        let spacecraft = spacecraft_of(&fmu)?;
+        let spacecraft = spacecraft_of(&simulation.fmu)?;
         let by_file_s = spacecraft.unload_every.map(|every| every.in_orbit_s(period_s));
-        let every_s = arguments.every.or(by_file_s).unwrap_or(DAY_S);
         let has_fan = spacecraft.antennas.iter().any(|named| named.antenna.fan().is_some());
-        let strategies = strategies(description, &sets, period_s, has_fan && !is_in_cruise);
         if arguments.years.is_some() && is_of_its_time {
             let allowed = "a mission without inputs, timeline and ephemeris, which are those of its own time";
             return Err(
@@ -125,32 +112,28 @@ impl SizedSpacecraft {
             );
         }
         Ok(Self {
-            sets,
-            inputs,
-            start_s,
             span_s,
             period_s,
-            every_s,
+            every_s: arguments.every.or(by_file_s).unwrap_or(DAY_S),
             slew: arguments.slew.or(spacecraft.slew),
             bias_n_m_s,
-            is_body_integral,
-            strategies,
-            fmu,
+            is_body_integral: item(description, sets, "momentum.convention") == Some("bodyIntegral"),
+            strategies: strategies(description, sets, period_s, has_fan && !is_in_cruise),
             spacecraft,
-            _folders: folders,
+            simulation,
         })
     }
 
     /// An instance that has just been initialised.
     pub(super) fn started(&self) -> Result<Instance, fmi::Error> {
-        instance::started(&self.fmu, "size", self.start_s, &self.sets)
+        instance::started(&self.simulation.fmu, "size", self.simulation.start_s, &self.simulation.sets)
     }
 
     /// Whether the file or the call gives a variable, or an element of it, a value.
     pub(super) fn says(&self, name: &str) -> bool {
         let is_it =
             |given: &str| given == name || given.strip_prefix(name).is_some_and(|it| it.starts_with('['));
-        self.sets.iter().any(|(given, _)| is_it(given))
+        self.simulation.sets.iter().any(|(given, _)| is_it(given))
             || self.spacecraft.start.iter().any(|entry| is_it(&entry.name))
     }
 
@@ -158,7 +141,7 @@ impl SizedSpacecraft {
     pub(super) fn last_year(&self, years: f64, end: &[String]) -> Result<Vec<(String, Value)>, Failure> {
         let first_s = self.started()?.get_real("start.epoch")?;
         let mut sets = vec![("start.epoch".to_owned(), Value::Real(first_s + (years - 1.0) * YEAR_S))];
-        sets.extend(assigned(self.fmu.description(), end)?);
+        sets.extend(assigned(self.simulation.fmu.description(), end)?);
         Ok(sets)
     }
 

@@ -13,6 +13,7 @@ use super::{
     sized::{SizedSpacecraft, YEAR_S},
     unloading::Unloadings,
 };
+use crate::text_table::{self, headed};
 
 /// Results, but for pictures.
 pub(super) struct Found {
@@ -48,15 +49,9 @@ pub(super) fn text(sized: &SizedSpacecraft, found: &Found) -> String {
 
 /// Wheels and thrusters by the time between unloadings.
 fn unloadings(found: &Found) -> String {
-    let mut table = terminal::table(&[
-        "unloaded every",
-        "capacity of each wheel [N.m.s]",
-        "torque [N.m]",
-        "impulse a year [N.m.s]",
-        "propellant a year [kg]",
-        "most minutes a dump",
-        "most W.h a dump",
-    ]);
+    let mut table = headed(
+        "unloaded every | capacity of each wheel [N.m.s] | torque [N.m] | impulse a year [N.m.s] | propellant a year [kg] | most minutes a dump | most W.h a dump",
+    );
     let mut rows: Vec<&Unloadings> = found.others.iter().chain([&found.unloadings]).collect();
     rows.sort_by(|a, b| a.wheels.every_s.total_cmp(&b.wheels.every_s));
     for row in rows {
@@ -107,14 +102,9 @@ fn is_nothing(row: &SourceRow) -> bool {
 }
 
 fn dumps(sized: &SizedSpacecraft, sweep: &Sweep) -> String {
-    let mut table = terminal::table(&[
-        "strategy",
-        "dump.threshold [N.m.s]",
-        "capacity of each wheel [N.m.s]",
-        "dumps a year",
-        "impulse a year [N.m.s]",
-        "propellant a year [kg]",
-    ]);
+    let mut table = headed(
+        "strategy | dump.threshold [N.m.s] | capacity of each wheel [N.m.s] | dumps a year | impulse a year [N.m.s] | propellant a year [kg]",
+    );
     for it in &sweep.dumped {
         table.add_row([
             it.strategy.clone(),
@@ -168,13 +158,9 @@ fn slews(slews: &[Slew; 3]) -> String {
 }
 
 fn allocations(rows: &[Allocation]) -> String {
-    let mut table = terminal::table(&[
-        "torque about",
-        "lever [m]",
-        "least impulse [N.m.s]",
-        "propellant [g per N.m.s]",
-        "seconds of full thrust for 1 N.m.s",
-    ]);
+    let mut table = headed(
+        "torque about | lever [m] | least impulse [N.m.s] | propellant [g per N.m.s] | seconds of full thrust for 1 N.m.s",
+    );
     for row in rows {
         let shares = row.shares.iter().map(|(name, on_time_s)| format!("{name} {}", rounded(*on_time_s)));
         table.add_row([
@@ -192,17 +178,14 @@ fn allocations(rows: &[Allocation]) -> String {
 
 /// Dumps by threshold and strategy, SI, as CSV.
 pub(super) fn csv(sized: &SizedSpacecraft, sweep: &Sweep) -> String {
-    let mut text = String::from(
-        "strategy,threshold_x_n_m_s,threshold_y_n_m_s,threshold_z_n_m_s,wheel_capacity_n_m_s,dumps_per_year,\
-         impulse_n_m_s_per_year,propellant_kg_per_year\n",
-    );
-    for it in &sweep.dumped {
+    let rows = sweep.dumped.iter().map(|it| {
         let [x, y, z]: [f64; 3] = it.threshold_n_m_s.into();
         let numbers = [x, y, z, capacity(sized, it), it.dumps, it.impulse_n_m_s, it.propellant_kg];
-        let numbers: Vec<String> = numbers.into_iter().map(|value| Real(value).to_string()).collect();
-        text.push_str(&format!("{},{}\n", it.strategy, numbers.join(",")));
-    }
-    text
+        [it.strategy.clone()].into_iter().chain(numbers.map(|value| Real(value).to_string()))
+    });
+    let header = "strategy,threshold_x_n_m_s,threshold_y_n_m_s,threshold_z_n_m_s,wheel_capacity_n_m_s,dumps_per_year,\
+                  impulse_n_m_s_per_year,propellant_kg_per_year";
+    text_table::csv(header, rows)
 }
 
 pub(super) fn triple(values: [f64; 3]) -> String {

@@ -93,6 +93,10 @@ struct Document<'a> {
     pulses: Vec<Line<'a>>,
 }
 
+fn failed(error: impl std::fmt::Display) -> PlanError {
+    PlanError::Write(error.to_string())
+}
+
 impl PlannedBurn {
     /// Start values of SpinPlant.
     pub fn start_values(&self) -> Vec<(&'static str, Setting)> {
@@ -103,21 +107,17 @@ impl PlannedBurn {
     ///
     /// # Errors
     /// Text that cannot be written.
-    pub fn to_csv(&self) -> Result<Vec<u8>, PlanError> {
-        let failed = |error: &dyn std::fmt::Display| PlanError::Write(error.to_string());
+    pub fn to_csv(&self) -> Result<String, PlanError> {
         let mut writer = csv::Writer::from_writer(Vec::new());
-        for line in self.lines() {
-            writer.serialize(line).map_err(|error| failed(&error))?;
-        }
-        writer.into_inner().map_err(|error| failed(&error))
+        self.lines().try_for_each(|line| writer.serialize(line)).map_err(failed)?;
+        String::from_utf8(writer.into_inner().map_err(failed)?).map_err(failed)
     }
 
     /// Everything there is to say about the plan, the table included.
     ///
     /// # Errors
     /// Text that cannot be written.
-    pub fn to_json(&self) -> Result<Vec<u8>, PlanError> {
-        let failed = |error: serde_json::Error| PlanError::Write(error.to_string());
+    pub fn to_json(&self) -> Result<String, PlanError> {
         let mut values = serde_json::Map::new();
         for (name, value) in self.start_values() {
             values.insert(name.to_owned(), serde_json::to_value(value).map_err(failed)?);
@@ -144,9 +144,7 @@ impl PlannedBurn {
             start_values: values,
             pulses: self.lines().collect(),
         };
-        let mut text = serde_json::to_vec_pretty(&document).map_err(failed)?;
-        text.push(b'\n');
-        Ok(text)
+        serde_json::to_string_pretty(&document).map(|text| text + "\n").map_err(failed)
     }
 
     fn lines(&self) -> impl Iterator<Item = Line<'_>> {

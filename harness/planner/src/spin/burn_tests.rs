@@ -3,17 +3,18 @@
 use physics::attitude::angle_between_rad;
 use physics::spin::spinner::Spinner;
 
-use super::tests::{ace, options};
-use super::{ACE, PlannedBurn, plan};
+use super::tests::{ace, request};
+use super::{ACE, PlannedBurn};
+use crate::plans::spin::text::plan;
 
 const TURN: &str = "--from 240deg,-20deg --sun 237deg,-12deg --target 246deg,-19deg";
 
 fn planned(arguments: &str) -> PlannedBurn {
-    plan(&options(arguments)).unwrap().burn.unwrap()
+    plan(&request(arguments)).unwrap().burn.unwrap()
 }
 
 fn text(arguments: &str) -> String {
-    plan(&options(arguments)).unwrap().text
+    plan(&request(arguments)).unwrap().text
 }
 
 #[test]
@@ -25,9 +26,9 @@ fn what_is_simulated_is_what_was_planned() {
         "--angle 3deg --timing clock",
         "--angle 2deg --thruster axial&couple&I-IV",
     ] {
-        let mut options = options(arguments);
-        options.thruster = options.thruster.map(|name| name.replace('&', " "));
-        let burn = plan(&options).unwrap().burn.unwrap();
+        let mut request = request(arguments);
+        request.thruster = request.thruster.map(|name| name.replace('&', " "));
+        let burn = plan(&request).unwrap().burn.unwrap();
         let (task, row, flight) = (&burn.task, &burn.row, &burn.flight);
         assert_eq!(flight.pulses.len() as u32, row.train.count, "{arguments}");
         let moved_rad = angle_between_rad(&flight.start_axis_inertial, &flight.end_axis_inertial());
@@ -78,9 +79,9 @@ fn the_phase_is_the_turn_since_the_sun_crossing() {
 fn csv_and_json_agree() {
     for arguments in ["--angle 2deg", &format!("{TURN} --earth 55deg,20deg")] {
         let burn = planned(arguments);
-        let json: serde_json::Value = serde_json::from_slice(&burn.to_json().unwrap()).unwrap();
+        let json: serde_json::Value = serde_json::from_str(&burn.to_json().unwrap()).unwrap();
         let csv = burn.to_csv().unwrap();
-        let mut reader = csv::Reader::from_reader(csv.as_slice());
+        let mut reader = csv::Reader::from_reader(csv.as_bytes());
         let header = reader.headers().unwrap().clone();
         let pulses = json["pulses"].as_array().unwrap();
         let records: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
@@ -99,7 +100,7 @@ fn csv_and_json_agree() {
             }
         }
         assert_eq!(pulses[0]["earth_angle_deg"].is_null(), burn.task.geometry.earth_inertial.is_none());
-        let table: toml::Table = super::start_table(&burn.start_values()).parse().unwrap();
+        let table: toml::Table = super::start_values::toml(&burn.start_values()).parse().unwrap();
         let in_json = json["start_values"].as_object().unwrap();
         assert_eq!(in_json.len(), table["start"].as_table().unwrap().len());
         for (name, value) in burn.start_values() {
@@ -182,7 +183,7 @@ fn the_plan_is_the_best_that_keeps_the_files_limits() {
         assert!(rows[..place].iter().all(|row| varies_s(row) > 0.9 * limit_s), "{limit_s}");
         assert!(place > 0, "{limit_s}");
     }
-    let kept = plan(&options("--angle 2deg")).unwrap();
+    let kept = plan(&request("--angle 2deg")).unwrap();
     assert!(kept.broken.is_empty() && kept.text.contains("Least final nutation within the limits: "));
     assert!(!kept.text.contains("No train keeps"));
 }
@@ -198,7 +199,7 @@ fn a_plan_that_breaks_a_limit_says_so() {
             vec!["Sun angle", "Earth angle"],
         ),
     ] {
-        let answer = plan(&options(arguments)).unwrap();
+        let answer = plan(&request(arguments)).unwrap();
         assert_eq!(answer.broken, broken, "{arguments}");
         let reported = format!("this one breaks: {}\n", broken.join(", "));
         assert!(answer.text.contains(&reported), "{arguments}: {}", answer.text);
@@ -220,7 +221,7 @@ fn rows_are_counted_and_fit_a_terminal() {
     }
     let text =
         text(&format!("{TURN} --max-nutation 0.2deg --rows 15 --timing clock --rate-uncertainty 0.01rpm"));
-    let campaign = plan(&options("--campaign 20d")).unwrap().text;
+    let campaign = plan(&request("--campaign 20d")).unwrap().text;
     for text in [text, campaign] {
         let tables: Vec<&str> = text.lines().skip_while(|line| !line.starts_with('─')).collect();
         let tables = tables.split(|line| line.starts_with('─')).skip(1).step_by(2).flatten();
@@ -233,10 +234,10 @@ fn rows_are_counted_and_fit_a_terminal() {
 fn the_thruster_is_the_files_own() {
     let renamed = ACE.replace("\"IIIR\"", "\"lower +X\"");
     let spinner = Spinner::parse("my.toml", &renamed).unwrap();
-    assert_eq!(super::Task::new(&options("--angle 2deg"), &spinner).unwrap().thruster, "lower +X");
+    assert_eq!(super::Task::new(&request("--angle 2deg"), &spinner).unwrap().thruster, "lower +X");
     let slower = ACE.replace("spin_rate_rpm = 5.0", "spin_rate_rpm = 3.0");
     let spinner = Spinner::parse("my.toml", &slower).unwrap();
-    let rate = super::Task::new(&options("--angle 2deg"), &spinner).unwrap().case.spin.rate_rad_s;
+    let rate = super::Task::new(&request("--angle 2deg"), &spinner).unwrap().case.spin.rate_rad_s;
     assert!((rate - 0.1 * core::f64::consts::PI).abs() < 1e-15);
-    assert_eq!(super::Task::new(&options("--angle 2deg"), &ace()).unwrap().thruster, "IIIR");
+    assert_eq!(super::Task::new(&request("--angle 2deg"), &ace()).unwrap().thruster, "IIIR");
 }

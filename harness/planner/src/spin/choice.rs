@@ -12,7 +12,7 @@ use super::{
 ///
 /// # Errors
 /// A train that cannot be simulated.
-pub(super) fn broken_limits(
+pub(crate) fn broken_limits(
     spinner: &Spinner,
     task: &Task,
     row: &TrainForecast,
@@ -26,7 +26,7 @@ pub(super) fn broken_limits(
 ///
 /// # Errors
 /// None that can be simulated.
-pub(super) fn by_all_limits<'a>(
+pub(crate) fn by_all_limits<'a>(
     spinner: &Spinner,
     task: &Task,
     rows: &'a [TrainForecast],

@@ -126,7 +126,7 @@ fn start(spinner: &Spinner, task: &Task, row: &TrainForecast) -> Start {
 ///
 /// # Errors
 /// A burn that the plant refuses, or that does not end.
-pub(super) fn simulated(
+pub(crate) fn simulated(
     spinner: &Spinner,
     task: &Task,
     row: &TrainForecast,

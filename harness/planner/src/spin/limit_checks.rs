@@ -41,7 +41,7 @@ impl LimitCheck {
 
 /// The limits that the spacecraft's file and the flags give, each checked on the flight, and on the worst of the range where
 /// the plan knows it.
-pub(super) fn check_limits(
+pub(crate) fn check_limits(
     spinner: &Spinner,
     task: &Task,
     row: &TrainForecast,
@@ -101,7 +101,7 @@ pub(super) fn check_limits(
 }
 
 /// Names of the limits that are broken.
-pub(super) fn broken(checks: &[LimitCheck]) -> Vec<&'static str> {
+pub(crate) fn broken(checks: &[LimitCheck]) -> Vec<&'static str> {
     checks.iter().filter(|check| check.kept == Some(false)).map(|check| check.limit).collect()
 }
 

@@ -3,17 +3,14 @@
 
 mod burn_table;
 mod campaign;
-mod choice;
+pub(crate) mod choice;
 mod error;
-mod flight;
-mod limit_checks;
-mod months;
-mod options;
-mod start_values;
+pub(crate) mod flight;
+pub(crate) mod limit_checks;
+pub(crate) mod options;
+pub(crate) mod start_values;
 mod started;
-mod tables;
 mod task;
-mod text;
 mod trade;
 mod turn_geometry;
 mod verification;
@@ -34,10 +31,12 @@ pub use flight::{Pulse, SimulatedPlan, SpinSample};
 pub use limit_checks::LimitCheck;
 #[cfg(test)]
 use options::ACE;
-pub use options::{Options, TimingOption};
-pub use start_values::toml as start_table;
+pub use options::{RightAscensionDeclination, TurnRequest};
+pub use physics::{
+    environment::dates::{ALLOWED_DATE, epoch_s},
+    spin::forecast::Timing,
+};
 pub use task::{Firing, Task, TaskLimits};
-pub use text::{Answer, plan};
 pub use trade::{TrainForecast, best, evaluate, frontier, timing_label, trade, uniform_plan};
 pub use turn_geometry::{MAX_ANGLE_DEG, TurnGeometry, Way, right_ascension_declination_deg};
 pub use verification::{Verification, verify};

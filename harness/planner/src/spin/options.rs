@@ -1,24 +1,11 @@
-//! The flags of `heliotorque plan spin`.
+//! Request of a turn of a spinner.
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
-use model_description::quantity;
-use physics::{constants::TIME_UNITS, environment::dates};
+use physics::spin::forecast::Timing;
 
 /// The spacecraft that is planned for unless another is named: the shipped ACE.
-pub(super) const ACE: &str = include_str!("../../../../fmu-src/resources/ace.toml");
-
-/// What pulses are timed by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum TimingOption {
-    /// Fixed intervals of the assumed spin period
-    Clock,
-    /// A delay after each Sun crossing
-    Sun,
-    /// The exact phase, each turn
-    Phase,
-}
+pub(crate) const ACE: &str = include_str!("../../../../fmu-src/resources/ace.toml");
 
 /// A direction in EME2000.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
@@ -29,125 +16,55 @@ pub struct RightAscensionDeclination {
     pub declination_deg: f64,
 }
 
-/// An angle with its unit, in deg.
-fn angle(text: &str) -> Result<f64, String> {
-    quantity::read_shown(text, "rad", "deg")
-        .ok_or_else(|| "an angle carries its unit: 2deg, 0.035rad".to_owned())
-}
-
-/// Right ascension and declination with their units and a comma between.
-fn direction(text: &str) -> Result<RightAscensionDeclination, String> {
-    const ALLOWED: &str = "allowed: right ascension (-360 to 360 deg) and declination (-90 to 90 deg), each with its unit: \
-                           83.63deg,22.01deg";
-    let read = || {
-        let (right_ascension, declination) = text.split_once(',')?;
-        Some(RightAscensionDeclination {
-            right_ascension_deg: angle(right_ascension).ok().filter(|deg| deg.abs() <= 360.0)?,
-            declination_deg: angle(declination).ok().filter(|deg| deg.abs() <= 90.0)?,
-        })
-    };
-    read().ok_or_else(|| ALLOWED.to_owned())
-}
-
-/// A rate of turn with its unit, in rpm.
-fn rate(text: &str) -> Result<f64, String> {
-    quantity::read_shown(text, "rad/s", "rpm")
-        .ok_or_else(|| "a rate carries its unit: 5rpm, 30deg/s".to_owned())
-}
-
-/// A time, in s.
-fn time(text: &str) -> Result<f64, String> {
-    quantity::read_in(text, TIME_UNITS)
-        .ok_or_else(|| "a time is a number of seconds or carries a unit: 600, 10min, 30d".to_owned())
-}
-
-/// A date in seconds past J2000 TDB.
-fn date(text: &str) -> Result<f64, String> {
-    dates::epoch_s(text).map_err(|error| format!("{error}, allowed: {}", dates::ALLOWED_DATE))
-}
-
-/// `heliotorque plan spin`: choose the train of pulses that turns a spinner with the least nutation.
-#[derive(Clone, Debug, Args)]
-pub struct Options {
-    /// Angle by which the spin axis shall turn, above 0 to 175 deg; see --direction, --target
-    #[arg(long = "angle", value_name = "ANGLE", value_parser = angle, default_value = "2deg")]
+/// Request of `heliotorque plan spin`.
+#[derive(Clone, Debug)]
+pub struct TurnRequest {
+    /// Angle by which the spin axis shall turn.
     pub angle_deg: f64,
-    /// Way of that turn about the spin axis, right-handed from the Sun: 0 toward it, 180deg away, otherwise across
-    #[arg(long = "direction", value_name = "ANGLE", value_parser = angle, default_value = "-90deg")]
+    /// Way of that turn about the spin axis, right-handed from the Sun.
     pub direction_deg: f64,
-    /// Turn to here instead: right ascension and declination (EME2000), 83.63deg,22.01deg; the Sun by --date or --sun
-    #[arg(long, value_name = "RA,DEC", value_parser = direction, conflicts_with_all = ["angle_deg", "direction_deg", "sun_angle_deg"])]
+    /// Target of the turn, in place of angle and direction.
     pub target: Option<RightAscensionDeclination>,
-    /// Where the spin axis stands at the start; otherwise by start.q in the spacecraft's file
-    #[arg(long, value_name = "RA,DEC", value_parser = direction)]
+    /// Spin axis at the start; otherwise by the spacecraft's file.
     pub from: Option<RightAscensionDeclination>,
-    /// Date of the turn, which gives Sun and Earth as seen from the Sun-Earth L1 point: '2026-11-22T12:00:00 UTC'
-    #[arg(long, value_name = "DATE", value_parser = date, conflicts_with = "sun_angle_deg")]
+    /// Date of the turn, in s past J2000 TDB.
     pub date: Option<f64>,
-    /// Where the Sun stands, in place of --date
-    #[arg(long, value_name = "RA,DEC", value_parser = direction, conflicts_with = "sun_angle_deg")]
+    /// Toward the Sun, in place of the date.
     pub sun: Option<RightAscensionDeclination>,
-    /// Where the Earth stands, in place of --date: off L1 it is up to 15 deg elsewhere
-    #[arg(long, value_name = "RA,DEC", value_parser = direction)]
+    /// Toward the Earth, in place of the date.
     pub earth: Option<RightAscensionDeclination>,
-    /// Trains that move by whole pulses may miss the angle by this much, in per cent
-    #[arg(long = "angle-tolerance", value_name = "PERCENT", default_value_t = 2.0)]
+    /// Part of the angle by which trains may miss it.
     pub angle_tolerance_percent: f64,
-    /// Inertia ratio I3/IT, between 1 and 2; otherwise the spacecraft's at its propellant load
-    #[arg(long, value_name = "RATIO")]
+    /// Inertia ratio I3/IT; otherwise the spacecraft's.
     pub ratio: Option<f64>,
-    /// The ratio may be off by this much either way
-    #[arg(long, value_name = "RATIO", default_value_t = 0.0115)]
+    /// Error of the ratio either way.
     pub ratio_uncertainty: f64,
-    /// Spin rate: 5rpm; otherwise spin.initialRate in the spacecraft's [start], or its nominal rate
-    #[arg(long = "rate", value_name = "RATE", value_parser = rate)]
+    /// Spin rate; otherwise by the spacecraft's file.
     pub rate_rpm: Option<f64>,
-    /// The spin rate may be off by this much either way: 0.1rpm
-    #[arg(long = "rate-uncertainty", value_name = "RATE", value_parser = rate, default_value = "0")]
+    /// Error of the spin rate either way.
     pub rate_uncertainty_rpm: f64,
-    /// Thruster or group, by its name in the spacecraft's file; otherwise the first that tilts the spin axis alone
-    #[arg(long, value_name = "NAME")]
+    /// Name of the thruster or group; otherwise the first that tilts the spin axis alone.
     pub thruster: Option<String>,
-    /// What pulses are timed by
-    #[arg(long, value_enum, default_value_t = TimingOption::Sun)]
-    pub timing: TimingOption,
-    /// Angle from the spin axis to the Sun: sets the nutation that science bears; otherwise by --date or --sun
-    #[arg(long = "sun-angle", value_name = "ANGLE", value_parser = angle, default_value = "10deg")]
+    /// Timing of the pulses.
+    pub timing: Timing,
+    /// Angle from the spin axis to the Sun where neither date nor Sun is given.
     pub sun_angle_deg: f64,
-    /// Limit on nutation at any time
-    #[arg(long = "max-nutation", value_name = "ANGLE", value_parser = angle)]
+    /// Limit on nutation at any time.
     pub max_nutation_deg: Option<f64>,
-    /// Limit on nutation after the last pulse
-    #[arg(long = "max-final", value_name = "ANGLE", value_parser = angle)]
+    /// Limit on nutation after the last pulse.
     pub max_final_deg: Option<f64>,
-    /// Limit on the time from first to last pulse, in s or with a unit: 10min
-    #[arg(long = "max-duration", value_name = "TIME", value_parser = time)]
+    /// Limit on the time from first to last pulse, in s.
     pub max_duration_s: Option<f64>,
-    /// Propellant on board, in kg; otherwise the spacecraft's
-    #[arg(long = "propellant", value_name = "KG")]
+    /// Propellant on board, in kg; otherwise the spacecraft's.
     pub propellant_kg: Option<f64>,
-    /// The spacecraft, a TOML file; otherwise ACE
-    #[arg(long, value_name = "TOML")]
+    /// File of the spacecraft; otherwise ACE.
     pub spacecraft: Option<PathBuf>,
-    /// Run the best plan through this SpinPlant, over the range of ratios; otherwise dist/SpinPlant.fmu where there is
-    /// one
-    #[arg(long, value_name = "FMU")]
+    /// SpinPlant through which the plan is simulated again.
     pub template: Option<PathBuf>,
-    /// Plan antenna pointing for so long, up to 3653d, instead of one manoeuvre; limits hold for each of its turns
-    #[arg(
-        long = "campaign",
-        value_name = "TIME",
-        value_parser = time,
-        conflicts_with_all = [
-            "angle_deg", "direction_deg", "target", "from", "date", "sun", "earth", "angle_tolerance_percent",
-            "sun_angle_deg", "template", "rows", "output"
-        ]
-    )]
+    /// Length of a campaign of antenna pointing in place of one turn, in s.
     pub campaign_s: Option<f64>,
-    /// Rows of the trade table, the last of them the uniform plan (equal pulses of one step, once a turn); 0 for no table
-    #[arg(long, value_name = "COUNT", default_value_t = 12)]
+    /// Rows of the trade table.
     pub rows: usize,
-    /// Write the plan here: burn.csv and burn.json (pulse by pulse), start.toml (start values), burn.svg (axis and nutation)
-    #[arg(long, short, value_name = "FOLDER")]
+    /// Folder to write.
     pub output: Option<PathBuf>,
 }

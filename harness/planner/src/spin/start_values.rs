@@ -77,7 +77,7 @@ pub(super) fn start_values(task: &Task, row: &TrainForecast) -> Vec<(&'static st
 }
 
 /// The `[start]` table of a spacecraft's file.
-pub fn toml(values: &[(&'static str, Setting)]) -> String {
+pub(crate) fn toml(values: &[(&'static str, Setting)]) -> String {
     let mut text = String::from("[start]\n");
     for (name, value) in values {
         let written = match value {
@@ -92,7 +92,7 @@ pub fn toml(values: &[(&'static str, Setting)]) -> String {
 }
 
 /// The same as options, quoted for a shell.
-pub(super) fn options(values: &[(&'static str, Setting)]) -> String {
+pub(crate) fn options(values: &[(&'static str, Setting)]) -> String {
     // The shortest form that is read back as the same number.
     let short = |number: &f64| {
         let written = format!("{number:?}");

@@ -6,14 +6,14 @@ use physics::{
     constants::RPM_RAD_S,
     spin::{
         burn_request::opposes,
-        forecast::{ForecastCase, Range, Timing},
+        forecast::{ForecastCase, Range},
         nutation::{Spin, allowed_nutation_rad},
         spinner::Spinner,
     },
 };
 
 use super::{
-    Options, PlanError, TimingOption, started,
+    PlanError, TurnRequest, started,
     turn_geometry::{MAX_ANGLE_DEG, TurnGeometry},
 };
 
@@ -83,44 +83,48 @@ pub struct TaskLimits {
     pub duration_s: f64,
 }
 
-impl Task {
-    /// From the options and the spacecraft.
-    pub fn new(options: &Options, spinner: &Spinner) -> Result<Self, PlanError> {
-        let check = |flag: &'static str, found: f64, fits: bool, allowed: &str| {
-            let refused = || PlanError::Flag { flag, found, allowed: allowed.to_owned() };
-            if found.is_finite() && fits { Ok(found) } else { Err(refused()) }
-        };
-        let positive = |flag, found: f64| check(flag, found, found > 0.0, "a positive number");
-        let not_negative = |flag, found: f64| check(flag, found, found >= 0.0, "0 or a positive number");
-        let angle_deg = options.angle_deg;
-        let allowed = format!("above 0 to {MAX_ANGLE_DEG} deg");
-        check("--angle", angle_deg, angle_deg > 0.0 && angle_deg <= MAX_ANGLE_DEG, &allowed)?;
-        let sun_deg = options.sun_angle_deg;
-        check("--sun-angle", sun_deg, sun_deg > 0.0 && sun_deg < 90.0, "above 0 to below 90 deg")?;
-        let geometry = TurnGeometry::new(options, spinner)?;
-        let angle_rad = if options.target.is_some() { geometry.angle_rad() } else { angle_deg.to_radians() };
-        let sun_angle_rad = if options.sun.is_some() || options.date.is_some() {
-            geometry.sun_angle_rad()
-        } else {
-            sun_deg.to_radians()
-        };
-        let rate_rad_s = match options.rate_rpm {
-            Some(rate_rpm) => positive("--rate", rate_rpm)? * RPM_RAD_S,
-            None => started::rate_rad_s(spinner)?.unwrap_or_else(|| spinner.limits.spin_rate_rad_s()),
-        };
-        let propellant_kg = options.propellant_kg.unwrap_or(spinner.mass_properties.initial_propellant_kg);
-        let most_kg = spinner.mass_properties.most_propellant_kg();
+fn check(flag: &'static str, found: f64, fits: bool, allowed: &str) -> Result<f64, PlanError> {
+    match found.is_finite() && fits {
+        true => Ok(found),
+        false => Err(PlanError::Flag { flag, found, allowed: allowed.to_owned() }),
+    }
+}
+
+fn positive(flag: &'static str, found: f64) -> Result<f64, PlanError> {
+    check(flag, found, found > 0.0, "a positive number")
+}
+
+fn not_negative(flag: &'static str, found: f64) -> Result<f64, PlanError> {
+    check(flag, found, found >= 0.0, "0 or a positive number")
+}
+
+fn refused(error: impl ToString) -> PlanError {
+    PlanError::Refused(error.to_string())
+}
+
+/// Body that is turned: its mass properties with the propellant on board.
+struct Body {
+    propellant_kg: f64,
+    inertia: Inertia,
+    moments_kg_m2: [f64; 3],
+    products_kg_m2: [f64; 3],
+    ratio: f64,
+    ratio_uncertainty: f64,
+}
+
+impl Body {
+    fn new(request: &TurnRequest, spinner: &Spinner) -> Result<Self, PlanError> {
+        let mass = &spinner.mass_properties;
+        let propellant_kg = request.propellant_kg.unwrap_or(mass.initial_propellant_kg);
+        let most_kg = mass.most_propellant_kg();
         let allowed = format!("0 to {most_kg} kg, where the spacecraft's mass properties end");
         check("--propellant", propellant_kg, (0.0..=most_kg).contains(&propellant_kg), &allowed)?;
-        let mut inertia = spinner
-            .mass_properties
-            .inertia(propellant_kg)
-            .map_err(|error| PlanError::Refused(error.to_string()))?;
-        let ratio = match options.ratio {
+        let inertia = mass.inertia(propellant_kg).map_err(refused)?;
+        let ratio = match request.ratio {
             Some(ratio) => positive("--ratio", ratio)?,
             None => inertia.inertial_nutation_ratio().unwrap_or(inertia.ratio()),
         };
-        let ratio_uncertainty = not_negative("--ratio-uncertainty", options.ratio_uncertainty)?;
+        let ratio_uncertainty = not_negative("--ratio-uncertainty", request.ratio_uncertainty)?;
         let (least, greatest) = (ratio - ratio_uncertainty, ratio + ratio_uncertainty);
         if !(least > 1.0 && greatest < 2.0) {
             return Err(PlanError::Refused(format!(
@@ -129,22 +133,29 @@ impl Task {
                  damper lets it grow, so that no train ends quietly, and no body has 2 or more"
             )));
         }
-        let rate_uncertainty_rpm = not_negative("--rate-uncertainty", options.rate_uncertainty_rpm)?;
-        check(
-            "--rate-uncertainty",
-            rate_uncertainty_rpm,
-            rate_uncertainty_rpm * RPM_RAD_S < rate_rad_s,
-            "less than the spin rate (--rate)",
-        )?;
-        let mass = &spinner.mass_properties;
-        let (mut moments_kg_m2, mut products_kg_m2) =
+        let (moments_kg_m2, products_kg_m2) =
             (mass.moments_kg_m2(propellant_kg), mass.products_kg_m2(propellant_kg));
-        if options.ratio.is_some() {
-            inertia = Inertia::axisymmetric(inertia.spin_kg_m2(), ratio)
-                .map_err(|error| PlanError::Refused(error.to_string()))?;
-            (moments_kg_m2, products_kg_m2) = (inertia.principal_kg_m2(), [0.0; 3]);
+        let body = Self { propellant_kg, inertia, moments_kg_m2, products_kg_m2, ratio, ratio_uncertainty };
+        if request.ratio.is_none() {
+            return Ok(body);
         }
-        let name = thruster_name(options, spinner)?;
+        let inertia = Inertia::axisymmetric(body.inertia.spin_kg_m2(), ratio).map_err(refused)?;
+        Ok(Self { moments_kg_m2: inertia.principal_kg_m2(), products_kg_m2: [0.0; 3], inertia, ..body })
+    }
+}
+
+/// Thruster or group that fires.
+struct Actuator {
+    name: String,
+    firing: Firing,
+    torque_n_m: f64,
+    flow_kg_s: f64,
+    has_opposite: bool,
+}
+
+impl Actuator {
+    fn new(request: &TurnRequest, spinner: &Spinner) -> Result<Self, PlanError> {
+        let name = thruster_name(request, spinner)?;
         let (mask, opposite) = spinner.named(&name).ok_or_else(|| {
             let thrusters = spinner.thrusters.iter().map(|thruster| thruster.name.as_str());
             let groups = spinner.groups.iter().map(|group| group.name.as_str());
@@ -154,50 +165,65 @@ impl Task {
         let thrust = spinner.thrust(mask);
         let torque_n_m = thrust.torque_body_n_m.xy().norm();
         if torque_n_m < 1e-9 {
-            return Err(PlanError::Refused(format!(
-                "--thruster is \"{name}\", which has no torque across the spin axis"
-            )));
+            let what = "which has no torque across the spin axis";
+            return Err(PlanError::Refused(format!("--thruster is \"{name}\", {what}")));
         }
-        let push = |mask: u32| spinner.thrust(mask).torque_body_n_m;
-        let against = |mask: u32| opposes(&thrust.torque_body_n_m, &push(mask));
+        let against = |mask: u32| opposes(&thrust.torque_body_n_m, &spinner.thrust(mask).torque_body_n_m);
         let number = |k: usize| i32::try_from(k + 1).unwrap_or(i32::MAX);
-        let firing = match spinner.thrusters.iter().position(|t| t.name == name) {
-            Some(k) => Firing::Thruster {
-                number: number(k),
-                opposite: (0..spinner.thrusters.len()).find(|&k| against(1 << k)).map(number),
-            },
-            None => Firing::Group(name.clone()),
+        let (firing, has_opposite) = match spinner.thrusters.iter().position(|t| t.name == name) {
+            Some(k) => {
+                let opposite = (0..spinner.thrusters.len()).find(|&k| against(1 << k)).map(number);
+                (Firing::Thruster { number: number(k), opposite }, opposite.is_some())
+            }
+            None => (Firing::Group(name.clone()), opposite.is_some_and(against)),
         };
-        let has_opposite = match &firing {
-            Firing::Thruster { opposite, .. } => opposite.is_some(),
-            Firing::Group(_) => opposite.is_some_and(against),
+        Ok(Self { name, firing, torque_n_m, flow_kg_s: thrust.flow_kg_s, has_opposite })
+    }
+}
+
+impl Task {
+    /// By the request and the spacecraft.
+    pub fn new(request: &TurnRequest, spinner: &Spinner) -> Result<Self, PlanError> {
+        let angle_deg = request.angle_deg;
+        let allowed = format!("above 0 to {MAX_ANGLE_DEG} deg");
+        check("--angle", angle_deg, angle_deg > 0.0 && angle_deg <= MAX_ANGLE_DEG, &allowed)?;
+        let sun_deg = request.sun_angle_deg;
+        check("--sun-angle", sun_deg, sun_deg > 0.0 && sun_deg < 90.0, "above 0 to below 90 deg")?;
+        let geometry = TurnGeometry::new(request, spinner)?;
+        let angle_rad = if request.target.is_some() { geometry.angle_rad() } else { angle_deg.to_radians() };
+        let has_sun = request.sun.is_some() || request.date.is_some();
+        let sun_angle_rad = if has_sun { geometry.sun_angle_rad() } else { sun_deg.to_radians() };
+        let rate_rad_s = match request.rate_rpm {
+            Some(rate_rpm) => positive("--rate", rate_rpm)? * RPM_RAD_S,
+            None => started::rate_rad_s(spinner)?.unwrap_or_else(|| spinner.limits.spin_rate_rad_s()),
         };
-        let spin = Spin { rate_rad_s, ratio, inertia_kg_m2: inertia.spin_kg_m2() };
+        let body = Body::new(request, spinner)?;
+        let error_rpm = not_negative("--rate-uncertainty", request.rate_uncertainty_rpm)?;
+        let is_less = error_rpm * RPM_RAD_S < rate_rad_s;
+        check("--rate-uncertainty", error_rpm, is_less, "less than the spin rate (--rate)")?;
+        let actuator = Actuator::new(request, spinner)?;
+        let spin = Spin { rate_rad_s, ratio: body.ratio, inertia_kg_m2: body.inertia.spin_kg_m2() };
         let limit = |flag, value: Option<f64>| value.map_or(Ok(f64::INFINITY), |value| positive(flag, value));
         Ok(Self {
             geometry,
-            moments_kg_m2,
-            products_kg_m2,
-            spin_axis_body: inertia.spin_axis_body(),
+            moments_kg_m2: body.moments_kg_m2,
+            products_kg_m2: body.products_kg_m2,
+            spin_axis_body: body.inertia.spin_axis_body(),
             angle_rad,
-            angle_tolerance: positive("--angle-tolerance", options.angle_tolerance_percent)? / 100.0,
+            angle_tolerance: positive("--angle-tolerance", request.angle_tolerance_percent)? / 100.0,
             case: ForecastCase {
                 spin,
                 assumed_rate_rad_s: rate_rad_s,
-                timing: match options.timing {
-                    TimingOption::Clock => Timing::Clock,
-                    TimingOption::Sun => Timing::SunCrossing,
-                    TimingOption::Phase => Timing::TruePhase,
-                },
-                torque_n_m,
+                timing: request.timing,
+                torque_n_m: actuator.torque_n_m,
             },
-            range: Range { ratio: ratio_uncertainty, rate_rad_s: rate_uncertainty_rpm * RPM_RAD_S },
-            thruster: name,
-            firing,
-            propellant_kg,
+            range: Range { ratio: body.ratio_uncertainty, rate_rad_s: error_rpm * RPM_RAD_S },
+            thruster: actuator.name,
+            firing: actuator.firing,
+            propellant_kg: body.propellant_kg,
             sun_angle_rad,
-            flow_kg_s: thrust.flow_kg_s,
-            has_opposite,
+            flow_kg_s: actuator.flow_kg_s,
+            has_opposite: actuator.has_opposite,
             resolution_s: spinner.resolution_s,
             damper_time_constant_s: spinner.damper_time_constant_s,
             allowed_nutation_rad: allowed_nutation_rad(
@@ -206,9 +232,9 @@ impl Task {
                 sun_angle_rad,
             ),
             limits: TaskLimits {
-                peak_rad: limit("--max-nutation", options.max_nutation_deg)?.to_radians(),
-                final_rad: limit("--max-final", options.max_final_deg)?.to_radians(),
-                duration_s: limit("--max-duration", options.max_duration_s)?,
+                peak_rad: limit("--max-nutation", request.max_nutation_deg)?.to_radians(),
+                final_rad: limit("--max-final", request.max_final_deg)?.to_radians(),
+                duration_s: limit("--max-duration", request.max_duration_s)?,
             },
         })
     }
@@ -237,8 +263,8 @@ impl Task {
 }
 
 /// Thruster that fires: the flag's, otherwise the first one that tilts the momentum.
-fn thruster_name(options: &Options, spinner: &Spinner) -> Result<String, PlanError> {
-    if let Some(name) = &options.thruster {
+fn thruster_name(request: &TurnRequest, spinner: &Spinner) -> Result<String, PlanError> {
+    if let Some(name) = &request.thruster {
         return Ok(name.clone());
     }
     let first = spinner.steering_pair().and_then(|(first, _)| spinner.thrusters.get(first));

@@ -13,7 +13,7 @@ use physics::{
     spin::{geometry::L1Orbit, spinner::Spinner},
 };
 
-use super::{Options, PlanError, options::RightAscensionDeclination, started};
+use super::{PlanError, TurnRequest, options::RightAscensionDeclination, started};
 
 /// Greatest turn that is planned. A burn is steered by the part of its target's direction across the momentum, which goes to
 /// 0 as the turn nears half a circle.
@@ -58,13 +58,13 @@ impl TurnGeometry {
     ///
     /// # Errors
     /// Flags that leave a direction open, or that contradict each other.
-    pub fn new(options: &Options, spinner: &Spinner) -> Result<Self, PlanError> {
+    pub fn new(request: &TurnRequest, spinner: &Spinner) -> Result<Self, PlanError> {
         let refuse = |flag, what: &str| PlanError::Direction { flag, what: what.to_owned() };
-        let date = options.date.map(|epoch_s| seen_from_l1(&spinner.l1_orbit, epoch_s));
-        let given_sun = options.sun.map(inertial).or(date.map(|(sun, _)| sun));
-        let earth_inertial = options.earth.map(inertial).or(date.map(|(_, earth)| earth));
-        let given_axis = options.from.map(inertial).or_else(|| started::axis_inertial(spinner));
-        let origin = match (options.date, options.sun, options.earth) {
+        let date = request.date.map(|epoch_s| seen_from_l1(&spinner.l1_orbit, epoch_s));
+        let given_sun = request.sun.map(inertial).or(date.map(|(sun, _)| sun));
+        let earth_inertial = request.earth.map(inertial).or(date.map(|(_, earth)| earth));
+        let given_axis = request.from.map(inertial).or_else(|| started::axis_inertial(spinner));
+        let origin = match (request.date, request.sun, request.earth) {
             (Some(epoch_s), sun, earth) => {
                 let of_date = match (sun, earth) {
                     (None, None) => "Sun and Earth",
@@ -78,7 +78,7 @@ impl TurnGeometry {
             (None, ..) => "Sun and Earth as given".to_owned(),
         };
         if given_axis.is_none()
-            && (given_sun.is_some() || options.target.is_some() || earth_inertial.is_some())
+            && (given_sun.is_some() || request.target.is_some() || earth_inertial.is_some())
         {
             return Err(refuse(
                 "--from",
@@ -87,7 +87,7 @@ impl TurnGeometry {
             ));
         }
         let axis_inertial = given_axis.unwrap_or_else(Vector3::z);
-        if let Some(target) = options.target {
+        if let Some(target) = request.target {
             let sun_inertial = given_sun.ok_or_else(|| {
                 refuse("--target", "the Sun is not given; allowed: --date or --sun beside it")
             })?;
@@ -101,7 +101,7 @@ impl TurnGeometry {
             }
             return Ok(Self { axis_inertial, target_inertial, sun_inertial, earth_inertial, origin });
         }
-        let direction_rad = options.direction_deg.to_radians();
+        let direction_rad = request.direction_deg.to_radians();
         let sun_inertial = match given_sun {
             Some(sun) => sun,
             // The turn goes toward +X where the axis is +Z.
@@ -110,7 +110,7 @@ impl TurnGeometry {
                 turned(
                     &axis_inertial,
                     &about(&axis_inertial, &across, -direction_rad),
-                    options.sun_angle_deg.to_radians(),
+                    request.sun_angle_deg.to_radians(),
                 )
             }
         };
@@ -121,7 +121,7 @@ impl TurnGeometry {
             )
         })?;
         let toward = about(&axis_inertial, &toward_sun, direction_rad);
-        let target_inertial = turned(&axis_inertial, &toward, options.angle_deg.to_radians());
+        let target_inertial = turned(&axis_inertial, &toward, request.angle_deg.to_radians());
         Ok(Self { axis_inertial, target_inertial, sun_inertial, earth_inertial, origin })
     }
 

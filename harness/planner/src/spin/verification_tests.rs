@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use fmi::Fmu;
 use physics::spin::train::Shape;
 
-use super::tests::{ace, assert_has, options, task};
-use super::{Firing, Options, Task, TrainForecast, evaluate, verify};
+use super::tests::{ace, assert_has, request, task};
+use super::{Firing, Task, TrainForecast, TurnRequest, evaluate, verify};
 
 /// The shipped FMU; `None` where `cargo xtask test` does not say where it is.
 fn shipped() -> Option<Fmu> {
@@ -31,8 +31,8 @@ fn row(task: &Task, shape: Shape, turns: f64) -> TrainForecast {
 fn alternating_trains_fire_the_thrusters_they_were_planned_for() {
     let Some(fmu) = shipped() else { return };
     for thruster in ["IA", "IIIA", "IIIR", "IR+", "axial couple I-IV", "upper radial I"] {
-        let given = options("--angle 2deg --angle-tolerance 4 --ratio-uncertainty 0.01");
-        let task = Task::new(&Options { thruster: Some(thruster.into()), ..given }, &ace()).unwrap();
+        let given = request("--angle 2deg --angle-tolerance 4 --ratio-uncertainty 0.01");
+        let task = Task::new(&TurnRequest { thruster: Some(thruster.into()), ..given }, &ace()).unwrap();
         // A canted thruster also spins the body up, by 2 % on the way, which the theory does not know.
         let tolerance = if thruster == "IR+" { 0.02 } else { 0.002 };
         for turns in [0.5, 1.0, 1.5] {

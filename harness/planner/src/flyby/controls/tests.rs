@@ -7,9 +7,10 @@ use nalgebra::{Rotation3, Unit, Vector3};
 use super::*;
 use crate::flyby::test_flight::{DAY_S, Intercept, LONG_S, Leg, force_model, packed};
 use crate::momentum::{
+    controls::{CONTROLS, Control, Controls},
     simulated::FlightRow,
     test_spacecraft::sunlit,
-    torque::{Attitude, CONTROLS, Control, Controls},
+    torque::Attitude,
     windows::WindowKind,
 };
 

@@ -10,7 +10,6 @@ use crate::momentum::{
     simulated::MomentumSize,
     target::Target,
     test_spacecraft::{DAY_S, row, simulated, sunlit, task},
-    torque::Controls,
     windows::ControlBounds,
 };
 

@@ -79,8 +79,8 @@ fn changes_are_the_fewest_of_all_choices() {
                     leader
                 })
                 .collect();
-            let part = Part { steps: [0, model.instants().len()], free: false };
-            if is_kept(&model, &leaders, part, [0.0, WHOLE], 1.0) {
+            let part = Part { steps: [0, model.instants.len()], free: false };
+            if is_kept(Formulation { model: &model, leaders: &leaders }, part, [0.0, WHOLE], 1.0) {
                 let count = places.count_ones() as usize;
                 fewest = Some(fewest.map_or(count, |least: usize| least.min(count)));
             }

@@ -5,6 +5,7 @@ use nalgebra::{Matrix3, Matrix4};
 
 use super::*;
 use crate::momentum::{
+    controls::Control,
     test_spacecraft::{DAY_S, simulated, sunlit, task},
     torque::Attitude,
     windows::ControlBounds,

@@ -4,13 +4,15 @@ mod again;
 mod enumerated;
 
 use nalgebra::Vector3;
+use physics::momentum::Convention;
 
 use super::*;
 use crate::momentum::{
     Limit,
+    controls::Control,
     test_spacecraft::{DAY_S, simulated, sunlit, task},
-    torque::{Attitude, Control},
-    windows::{ControlBounds, Layout},
+    torque::Attitude,
+    windows::{ControlBounds, Layout, WindowKind},
 };
 
 /// Simulates windows with the alternate attitude as it is timed, in steps of ten minutes, and one more torque.

@@ -71,3 +71,14 @@ fn many_sums_within_a_band_stay_what_they_are() {
     }
     assert!(high < 1.0 || low > -1.0);
 }
+
+/// Corners of a square as the B-plane has them, and of no polygon.
+#[test]
+fn a_point_is_held_within_the_corners() {
+    let square = Region { corners: vec![[-1e5, -1e4], [1e5, -1e4], [1e5, 2e4], [-1e5, 2e4]] };
+    for (point, is) in [([9e4, 0.0], true), ([1.1e5, 0.0], false), ([0.0, -2e4], false)] {
+        assert_eq!(square.holds(point), is, "{point:?}");
+    }
+    let segment = Region { corners: square.corners[..2].to_vec() };
+    assert!(!Region::default().holds([0.0; 2]) && !segment.holds([0.0, -1e4]));
+}

@@ -3,7 +3,7 @@
 mod flights;
 mod picture;
 
-use std::{cell::RefCell, path::Path, time::Instant};
+use std::path::Path;
 
 use ::files::{OutputFolder, Scratch};
 use files::outcome::{self, Answer, Outcome};
@@ -24,6 +24,7 @@ use super::{
     flights::SimulatedMission,
     mission_text,
     options::FilePlan,
+    progress::Progress,
 };
 use crate::{
     Failure,
@@ -216,20 +217,14 @@ impl<'a> Prepared<'a> {
 
 /// Finds the leg, writes the files and reports what came of it.
 pub fn run(options: &FilePlan) -> Outcome {
-    let began = Instant::now();
+    let progress = Progress::begin(options.quiet);
     let file = LegFile::read(&options.file)?;
     check_standing(&options.output, NAMES)?;
     let _folder = OutputFolder::create(&options.output, "--output")?;
     let Prepared { of_leg, mission, arrival_s } = Prepared::new(&file, options.template.as_deref())?;
     let in_mission = |error: Failure| file.problem(&file.mission, &error.to_string());
     let body = file.arrive.body.it.word();
-    let last = RefCell::new(String::new());
-    let say = |doing: &str| {
-        if !options.quiet && *last.borrow() != doing {
-            doing.clone_into(&mut last.borrow_mut());
-            terminal::note(&format!("{:.1} s: {doing}", began.elapsed().as_secs_f64()));
-        }
-    };
+    let say = |doing: &str| progress.say(doing);
     say("the planet");
     let (leg, task, picture) = {
         let start = (file.depart.position_m.it, arrival_s);

@@ -2,27 +2,29 @@
 
 mod flyby;
 mod flyby_task;
+mod input_table;
 mod layout;
 mod picture;
 mod planned;
 mod prepared;
 mod prices;
+mod steps;
+mod summary;
 mod timeline;
+mod update;
 mod written;
 
-use std::{cell::RefCell, path::Path, time::Instant};
+use std::path::Path;
 
 use ::files::OutputFolder;
 use drawing::{Chart, DrawingError, Picture};
 use files::outcome::{self, Answer, Outcome};
 use inputs::{library::Library, plan::PlanFile};
 use isolation::interrupt;
-use nalgebra::{Matrix4, Vector3};
 use physics::constants::DAY_S;
 
 use self::{
     flyby_task::FlybyTask,
-    layout::orbit_layout,
     planned::{NAMES, Planned},
     prepared::Prepared,
 };
@@ -32,10 +34,11 @@ use super::{
 };
 use crate::{
     Failure,
-    flyby::report::FlybyReport,
+    flyby::report::{FlybyReport, partials_csv},
     momentum::{
-        Limit,
-        plan::{Least, MomentumPlan, PlanError, PlanTask, PlannedDump, plan},
+        attainable::least_excess_n_m_s,
+        baseline::NoOffset,
+        plan::{MomentumPlan, PlanError, plan},
         report::{self, PlanEvent},
         windows::{Window, WindowKind},
     },
@@ -51,62 +54,6 @@ fn check(file: &PlanFile) -> Result<(), String> {
     let other = other.or_else(|| Some(file.problem(file.compare.as_ref()?, what)));
     let other = other.or_else(|| Some(file.problem(file.monte_carlo.as_ref()?, what)));
     other.map_or(Ok(()), Err)
-}
-
-/// Reads what the plan file names, and simulates the mission as it is.
-fn opened<'a>(options: &'a FilePlan, file: &PlanFile, began: Instant) -> Result<Planned<'a>, Failure> {
-    let prepared = Prepared::new(file, options.template.as_deref())?;
-    if let Some(at) = &file.update {
-        let (mut updated, folder) = flyby::updated(file, at, &prepared.mission)?;
-        updated.update = None;
-        let mut planned = opened(options, &updated, began)?;
-        planned.keeps = Some(folder);
-        planned.file.update = file.update.clone();
-        return Ok(planned);
-    }
-    let Prepared { file, mission, timeline, sunlit, refit, sets, aim, cruise } = prepared;
-    let mut simulated = mission.simulate(None)?;
-    let flyby_task = file.flyby.as_ref().zip(aim);
-    let flyby_task =
-        flyby_task.map(|(at, aim)| FlybyTask::new(&file, (&at.it, aim), (&mission, &sunlit), &simulated));
-    let flyby_task = flyby_task.transpose()?;
-    simulated.encountered = flyby_task.as_ref().map(|it| it.aimpoint.encountered(&it.first, &simulated.rows));
-    let layout = match cruise {
-        Some(layout) => layout,
-        None => orbit_layout(&file, &mission, &timeline, &simulated)?,
-    };
-    let momentum_n_m_s = file.momentum.limit_n_m_s.unwrap_or_else(|| mission.least_threshold_n_m_s());
-    let limit = Limit {
-        momentum_n_m_s,
-        size: mission.convention().into(),
-        margin: file.momentum.margin,
-        covariance: refit.map(|it| Matrix4::from(it.covariance).transpose()),
-    };
-    let least = if mission.is_in_orbit() { Least::Momentum } else { Least::Tilt };
-    let target = flyby_task.as_ref().map(FlybyTask::target);
-    let task = PlanTask {
-        layout,
-        limit,
-        dumps: file.momentum.dumps as usize,
-        least,
-        budget_s: options.budget_s,
-        target,
-    };
-    let last = RefCell::new(String::new());
-    Ok(Planned {
-        options,
-        file,
-        mission,
-        timeline,
-        sunlit,
-        simulated,
-        flyby_task,
-        task,
-        sets,
-        began,
-        last,
-        keeps: None,
-    })
 }
 
 /// Summary of a plan file in a sentence, after all that the command does before its first flight.
@@ -142,83 +89,68 @@ pub fn checked(path: &Path, library: Library<'_>) -> Result<String, Failure> {
 
 /// Plans, writes the files and reports what came of it.
 pub fn run(options: &FilePlan) -> Outcome {
-    let began = Instant::now();
     let file = PlanFile::read(&options.file)?;
     check(&file)?;
     check_standing(&options.output, NAMES)?;
     let _folder = OutputFolder::create(&options.output, "--output")?;
-    let planned = opened(options, &file, began)?;
-    let file = &planned.file;
+    let planned = Planned::open(options, &file)?;
+    let mut encounter = None;
     if let Some(flyby_task) = &planned.flyby_task {
         flyby::check(&planned, flyby_task)?;
-    }
-    if let Some(flyby_task) = planned.flyby_task.as_ref().filter(|_| !file.has_aim()) {
-        return describe(&planned, flyby_task);
-    }
-    let encounter =
-        planned.flyby_task.as_ref().map(|it| Ok::<_, Failure>((flyby::before(&planned, it)?, it)));
-    let mut encounter = encounter.transpose()?;
-    if let Some((report, flyby_task)) = encounter.as_ref().filter(|(report, _)| report.is_out_of_reach) {
-        return refuse(&planned, (report, flyby_task));
+        if !planned.file.has_aim() {
+            let report = flyby::without_aim(&planned, flyby_task)?;
+            without_plan(&planned, "withoutAim", (&report, flyby_task), Vec::new())?;
+            return Ok(Answer::Yes);
+        }
+        let report = flyby::before(&planned, flyby_task)?;
+        if report.is_out_of_reach {
+            let contents =
+                vec![(NAMES[4], drawn(None, Some(&report))?), (flyby::NAMES[0], report.desired_csv())];
+            without_plan(&planned, "notFound", (&report, flyby_task), contents)?;
+            return Ok(Answer::No);
+        }
+        encounter = Some((report, flyby_task));
     }
     let mut simulates = &planned;
-    let outcome = plan(&planned.task, &planned.sunlit, &planned.simulated, &mut simulates);
+    let found = plan(&planned.task, &planned.sunlit, &planned.simulated, &mut simulates);
     if interrupt::raised() {
         return Ok(Answer::Interrupted);
     }
-    let found = match outcome {
-        Ok(found) => found,
-        Err(PlanError::Corridor(none)) => {
-            let text = report::corridor_json(&none, planned.mission.start_s)?;
-            write(&planned, &[(NAMES[5], text)])?;
-            let corridor = &planned.task.layout.corridor;
-            let day = (none.at_s - planned.mission.start_s) / DAY_S;
-            let what = format!(
-                "{}: articulation: found nothing between {} and {} suns on day {day:.1}, {:.4} AU from the Sun, where cells get {:.3} \
-                 at most, allowed: bounds that some offset keeps at every distance of the flight",
-                planned.mission.mission.file.display(),
-                corridor.min_suns,
-                corridor.max_suns,
-                none.distance_au,
-                none.suns,
-            );
-            return outcome::no(&file.problem(&file.mission, &what));
-        }
-        Err(limit @ PlanError::Limit { .. }) => return outcome::no(&limit.to_string()),
-        Err(error) => return Err(error.to_string().into()),
-    };
-    let prices = prices::all(file, &planned, &found)?;
-    let events = events(&planned, &found);
-    let panels = planned.sunlit.spacecraft.panels.iter().map(|panel| panel.windmill_side);
-    let sides: Vec<f64> = panels.filter(|_| !planned.mission.is_in_orbit()).collect();
-    let bodies = |dump: &PlannedDump| planned.body(&found.windows, dump);
-    let table = written::inputs(&planned.mission, &planned.timeline, &found, &sides, &bodies);
-    let windows = report::windows_csv(&found, &timeline::shown_deg)?;
+    match found {
+        Ok(found) => answer(&planned, &found, encounter),
+        Err(PlanError::Corridor(none)) => no_offset(&planned, &none),
+        Err(limit @ PlanError::Limit { .. }) => outcome::no(&limit.to_string()),
+        Err(error) => Err(error.into()),
+    }
+}
+
+/// Writes a plan that was found, and reports what came of it.
+fn answer(
+    planned: &Planned<'_>,
+    found: &MomentumPlan,
+    mut encounter: Option<(FlybyReport, &FlybyTask)>,
+) -> Outcome {
+    let (file, options) = (&planned.file, planned.options);
+    let prices = prices::all(file, planned, found)?;
+    let events = events(planned, found);
+    let table = input_table::text(planned, found);
     let seeds = planned.simulate_seeds(&found.windows, &found.dumps)?;
     let mut of_flyby = Vec::new();
     if let Some((report, flyby_task)) = &mut encounter {
-        let [sensitivity, partials] = flyby::complete(report, file, (&planned, flyby_task), &found)?;
-        of_flyby = vec![
-            (flyby::NAMES[0], String::from_utf8(report.desired_csv()?)?),
-            (flyby::NAMES[1], sensitivity),
-            (flyby::NAMES[2], partials),
-        ];
+        let [sensitivity, partials] = flyby::complete(report, file, (planned, flyby_task), found)?;
+        of_flyby = flyby::NAMES.into_iter().zip([report.desired_csv(), sensitivity, partials]).collect();
     }
-    let chart = picture::chart(&planned.sunlit.spacecraft.name, &found, &planned.task);
-    let picture = drawn(Some(&chart), encounter.as_ref().map(|(report, it)| (report, *it)))?;
-    let more = encounter.as_ref().map(|(report, _)| report.members()).unwrap_or_default();
-    let json = report::json(&found, &planned.task, &events, (&prices, &seeds), more)?;
+    let report = encounter.as_ref().map(|(report, _)| report);
+    let chart = picture::chart(&planned.sunlit.spacecraft.name, found, &planned.task);
+    let picture = drawn(Some(&chart), report)?;
+    let more = report.map(FlybyReport::members);
+    let json = report::json(found, &planned.task, &events, (&prices, &seeds), more)?;
     let [timeline, mission] = planned.write_into(&options.output, (&found.windows, &found.dumps), None)?;
-    let mut contents = vec![
-        timeline,
-        mission,
-        (NAMES[2], table),
-        (NAMES[3], String::from_utf8(windows)?),
-        (NAMES[4], picture),
-        (NAMES[5], json),
-    ];
+    let windows = report::windows_csv(found, &steps::shown_deg);
+    let mut contents = vec![timeline, mission];
+    contents.extend(NAMES[2..].iter().copied().zip([table, windows, picture, json]));
     contents.extend(of_flyby);
-    write(&planned, &contents)?;
+    write(planned, &contents)?;
     for warning in written::beyond_inputs(&planned.mission, &planned.timeline) {
         terminal::note(&warning);
     }
@@ -228,54 +160,59 @@ pub fn run(options: &FilePlan) -> Outcome {
         ));
     }
     if !options.quiet {
-        terminal::print(&summary(&planned, &found, (&prices, &seeds)))?;
-        if let Some((report, flyby_task)) = &encounter {
-            terminal::print(&flyby::summary(report, flyby_task).join("\n"))?;
+        terminal::print(&summary::text(planned, found, (&prices, &seeds)))?;
+        if let Some(report) = report {
+            terminal::print(&flyby::summary(report).join("\n"))?;
         }
         for (name, _) in &contents {
             terminal::note(&format!("wrote {}", options.output.join(name).display()));
         }
     }
     if found.exceeded.is_some()
-        && let Some(what) = full_contacts(file, &planned, &found)
+        && let Some(what) = full_contacts(file, planned, found)
     {
         return outcome::no(&what);
     }
-    let is_planned = report::status(&found, &planned.task) == "planned";
-    Ok(Answer::from(is_planned))
+    Ok(Answer::from(report::status(found, &planned.task) == "planned"))
 }
 
-/// Writes where the mission as it is passes its planet, for a plan without an aim.
-fn describe(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Outcome {
-    let report = flyby::without_aim(planned, flyby_task)?;
-    let json = report::without_plan_json("withoutAim", report.members())?;
-    let partials = flyby::first_partials(planned, flyby_task)?;
-    write(planned, &[(NAMES[5], json), (flyby::NAMES[2], partials)])?;
-    if !planned.options.quiet {
-        terminal::print(&flyby::summary(&report, flyby_task).join("\n"))?;
-    }
-    Ok(Answer::Yes)
+/// Writes `plan.json` where the corridor is empty, and says where.
+fn no_offset(planned: &Planned<'_>, none: &NoOffset) -> Outcome {
+    let start_s = planned.mission.start_s;
+    write(planned, &[(NAMES[5], report::corridor_json(none, start_s)?)])?;
+    let corridor = &planned.task.layout.corridor;
+    let what = format!(
+        "{}: articulation: found nothing between {} and {} suns on day {:.1}, {:.4} AU from the Sun, where cells get {:.3} at most, \
+         allowed: bounds that some offset keeps at every distance of the flight",
+        planned.mission.mission.file.display(),
+        corridor.min_suns,
+        corridor.max_suns,
+        (none.at_s - start_s) / DAY_S,
+        none.distance_au,
+        none.suns,
+    );
+    outcome::no(&planned.file.problem(&planned.file.mission, &what))
 }
 
-/// Writes what there is of a plan whose aimpoint is out of reach.
-fn refuse(planned: &Planned<'_>, (report, flyby_task): (&FlybyReport, &FlybyTask)) -> Outcome {
-    let picture = drawn(None, Some((report, flyby_task)))?;
-    let json = report::without_plan_json("notFound", report.members())?;
-    let desired = String::from_utf8(report.desired_csv()?)?;
-    let partials = flyby::first_partials(planned, flyby_task)?;
-    let contents =
-        [(NAMES[4], picture), (NAMES[5], json), (flyby::NAMES[0], desired), (flyby::NAMES[2], partials)];
+/// Writes and prints what there is of an encounter without a plan: where the mission as it is passes its planet, and other contents.
+fn without_plan(
+    planned: &Planned<'_>,
+    status: &str,
+    (report, flyby_task): (&FlybyReport, &FlybyTask),
+    mut contents: Vec<(&'static str, String)>,
+) -> Result<(), Failure> {
+    contents.push((NAMES[5], report::without_plan_json(status, report.members())?));
+    contents.push((flyby::NAMES[2], partials_csv(&flyby_task.first, &planned.simulated)));
     write(planned, &contents)?;
     if !planned.options.quiet {
-        terminal::print(&flyby::summary(report, flyby_task).join("\n"))?;
+        terminal::print(&flyby::summary(report).join("\n"))?;
     }
-    Ok(Answer::No)
+    Ok(())
 }
 
 /// `plan.svg`.
-fn drawn(chart: Option<&Chart>, flyby: Option<(&FlybyReport, &FlybyTask)>) -> Result<String, DrawingError> {
-    let of_flyby =
-        flyby.map(|(report, flyby_task)| (flyby::plane(report, flyby_task), flyby::desired(report)));
+fn drawn(chart: Option<&Chart>, report: Option<&FlybyReport>) -> Result<String, DrawingError> {
+    let of_flyby = report.map(|report| (flyby::plane(report), flyby::desired(report)));
     let mut all: Vec<&dyn Picture> = chart.iter().map(|chart| *chart as &dyn Picture).collect();
     if let Some((plane, desired)) = &of_flyby {
         all.push(plane);
@@ -290,12 +227,7 @@ fn full_contacts(file: &PlanFile, planned: &Planned<'_>, found: &MomentumPlan) -
     let window = found.windows.iter().find(full)?;
     let mut task = planned.task.clone();
     task.layout.contacts_s.clear();
-    let needs = crate::momentum::attainable::least_excess_n_m_s(
-        &task,
-        &planned.sunlit,
-        &planned.simulated,
-        f64::NEG_INFINITY,
-    );
+    let needs = least_excess_n_m_s(&task, &planned.sunlit, &planned.simulated, f64::NEG_INFINITY);
     let at = file.contacts.it.iter().find(|at| {
         let span = [at.it.start, at.it.stop].map(|instant| planned.mission.time_s(instant));
         matches!(span, [Some(from_s), Some(to_s)] if from_s < window.stop_s && to_s > window.start_s)
@@ -324,88 +256,4 @@ fn write(planned: &Planned<'_>, contents: &[(&'static str, String)]) -> Result<(
     inputs.push(&planned.options.file);
     write_all(&planned.options.output, contents, &inputs)?;
     Ok(())
-}
-
-fn summary(
-    planned: &Planned<'_>,
-    found: &MomentumPlan,
-    (prices, seeds): (&[report::Price], &[(f64, u32)]),
-) -> String {
-    let start_s = planned.mission.start_s;
-    let day = |time_s: f64| (time_s - start_s) / DAY_S;
-    let [most_planned, most_simulated] = found.greatest_n_m_s();
-    let limit = planned.task.limit.momentum_n_m_s;
-    let size = planned.task.limit.size;
-    let (unmanaged, _) = planned.simulated.greatest(size);
-    let mut lines = vec![
-        format!("{size} as the mission is: {unmanaged:.3} N.m.s"),
-        format!(
-            "{size} planned {most_planned:.3}, simulated {most_simulated:.3}, limit {limit:.3} N.m.s; flight and plan differ by {:.4} at most, \
-             {:.2} % of the limit, after {} flight{}",
-            found.difference_n_m_s(),
-            100.0 * found.difference_n_m_s() / limit,
-            found.rounds,
-            if found.rounds == 1 { "" } else { "s" },
-        ),
-    ];
-    if let Some(exceeded) = &found.exceeded {
-        let bound = match found.dumps_at_least {
-            0 => "no plan without a dump was found".to_owned(),
-            count => format!("no plan holds without a dump: {count} at least on this baseline"),
-        };
-        lines.push(format!(
-            "{bound}; the limit is exceeded by {:.3} N.m.s at the least that was found, first on day {:.1}; {} may be ([momentum] dumps)",
-            exceeded.excess_n_m_s,
-            day(exceeded.first_s),
-            planned.task.dumps,
-        ));
-        let days: Vec<String> = found.dumps.iter().map(|dump| format!("{:.2}", day(dump.at_s))).collect();
-        lines.push(format!("dumps on days {}", days.join(", ")));
-    } else {
-        lines.push("dumps: 0".to_owned());
-    }
-    if !found.holds {
-        lines.push(
-            "no plan was found that holds: the best flight exceeds the limit, or misses its aim".to_owned(),
-        );
-    }
-    if found.is_mission {
-        lines.push("the plan is the mission as it is: no better one was found".to_owned());
-    }
-    let gap = match (found.changes - found.changes_at_least, found.changes_at_least) {
-        (0, _) => "no plan has fewer on this baseline".to_owned(),
-        (_, 0) => "fewer are not excluded".to_owned(),
-        (_, least) => format!("no plan has fewer than {least} on this baseline"),
-    };
-    let free = found.windows.iter().filter(|window| window.kind == WindowKind::Free);
-    lines.push(match planned.mission.is_in_orbit() {
-        true => format!("places of the Sun in {} downlinks", free.count()),
-        false => format!(
-            "{} steps of the baseline, {} changes of the arrays; {gap}",
-            found.baseline.len(),
-            found.changes
-        ),
-    });
-    for price in prices {
-        lines.push(format!(
-            "{} {}: {:.3} N.m.s gathered more, {:+.3} N.m.s at the limit, {:+} dumps",
-            if price.removed { "without" } else { "with" },
-            price.name,
-            Vector3::from(price.gathered_n_m_s).norm(),
-            price.momentum_n_m_s,
-            price.dumps,
-        ));
-    }
-    if !seeds.is_empty() {
-        let [momentum, dumps] = report::of_seeds(seeds);
-        let all = |of: [f64; 3]| of.map(terminal::short).join(", ");
-        lines.push(format!(
-            "{} seeds: {size} {} N.m.s, dumps {} (50, 90, 99 %)",
-            seeds.len(),
-            all(momentum),
-            all(dumps)
-        ));
-    }
-    lines.push(format!("{:.1} s", planned.began.elapsed().as_secs_f64()));
-    lines.join("\n")
 }

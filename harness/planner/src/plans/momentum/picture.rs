@@ -3,10 +3,10 @@
 use drawing::{Chart, Panel, Series};
 use physics::constants::DAY_S;
 
-use super::timeline::shown_deg;
+use super::steps::shown_deg;
 use crate::momentum::{
+    controls::Control,
     plan::{MomentumPlan, PlanTask},
-    torque::Control,
     windows::Window,
 };
 

@@ -1,22 +1,25 @@
 //! A mission with what a plan needs of it, and its flights.
 
-use std::{cell::RefCell, path::Path, time::Instant};
+use std::path::Path;
 
 use ::files::Scratch;
 use inputs::plan::{PlanFile, keys::Activity};
-use nalgebra::Vector3;
+use nalgebra::{Matrix4, Vector3};
 
 use super::{
-    super::{flights::SimulatedMission, options::FilePlan},
+    super::{flights::SimulatedMission, options::FilePlan, progress::Progress},
     flyby_task::FlybyTask,
+    layout::orbit_layout,
+    prepared::Prepared,
     timeline::MissionTimeline,
+    update::updated,
     written,
 };
 use crate::{
     Failure,
     momentum::{
-        Convention,
-        plan::{PlanTask, PlannedDump, Simulates},
+        Convention, Limit,
+        plan::{Least, PlanTask, PlannedDump, Simulates},
         simulated::SimulatedFlight,
         torque::SunlitSpacecraft,
         windows::{Window, WindowKind},
@@ -41,10 +44,63 @@ pub(super) struct Planned<'a> {
     pub task: PlanTask,
     /// Values that a refit gives.
     pub sets: Vec<(String, Vec<f64>)>,
-    pub began: Instant,
-    pub last: RefCell<String>,
-    /// The folder of an updated mission, as long as it is in use.
-    pub keeps: Option<Scratch>,
+    pub progress: Progress,
+    // The folder of an updated mission, as long as it is in use.
+    _folder: Option<Scratch>,
+}
+
+impl<'a> Planned<'a> {
+    /// Reads what the plan file names, and simulates the mission as it is.
+    pub(super) fn open(options: &'a FilePlan, file: &PlanFile) -> Result<Self, Failure> {
+        let progress = Progress::begin(options.quiet);
+        let template = options.template.as_deref();
+        let mut prepared = Prepared::new(file, template)?;
+        let mut keeps = None;
+        if let Some(at) = &file.update {
+            let (mut updated, folder) = updated(file, at, &prepared.mission)?;
+            updated.update = None;
+            prepared = Prepared::new(&updated, template)?;
+            prepared.file.update.clone_from(&file.update);
+            keeps = Some(folder);
+        }
+        let Prepared { file, mission, timeline, sunlit, refit, sets, aim, cruise } = prepared;
+        let mut simulated = mission.simulate(None)?;
+        let flyby_task = file
+            .flyby
+            .as_ref()
+            .zip(aim)
+            .map(|(at, aim)| FlybyTask::new(&file, (&at.it, aim), (&mission, &sunlit), &simulated));
+        let flyby_task = flyby_task.transpose()?;
+        simulated.encountered =
+            flyby_task.as_ref().map(|it| it.aimpoint.encountered(&it.first, &simulated.rows));
+        let layout = match cruise {
+            Some(layout) => layout,
+            None => orbit_layout(&file, &mission, &timeline, &simulated)?,
+        };
+        let limit = Limit {
+            momentum_n_m_s: file.momentum.limit_n_m_s.unwrap_or_else(|| mission.least_threshold_n_m_s()),
+            size: mission.convention().into(),
+            margin: file.momentum.margin,
+            covariance: refit.map(|it| Matrix4::from(it.covariance).transpose()),
+        };
+        let least = if mission.is_in_orbit() { Least::Momentum } else { Least::Tilt };
+        let target = flyby_task.as_ref().map(FlybyTask::target);
+        let (dumps, budget_s) = (file.momentum.dumps as usize, options.budget_s);
+        let task = PlanTask { layout, limit, dumps, least, budget_s, target };
+        Ok(Self {
+            options,
+            file,
+            mission,
+            timeline,
+            sunlit,
+            simulated,
+            flyby_task,
+            task,
+            sets,
+            progress,
+            _folder: keeps,
+        })
+    }
 }
 
 impl Planned<'_> {
@@ -135,14 +191,6 @@ impl Planned<'_> {
         bar.finish_and_clear();
         flights
     }
-
-    pub(super) fn say(&self, doing: &str) {
-        if self.options.quiet || *self.last.borrow() == doing {
-            return;
-        }
-        doing.clone_into(&mut self.last.borrow_mut());
-        terminal::note(&format!("{:.1} s: {doing}", self.began.elapsed().as_secs_f64()));
-    }
 }
 
 impl Simulates for &Planned<'_> {
@@ -151,6 +199,6 @@ impl Simulates for &Planned<'_> {
     }
 
     fn progress(&mut self, doing: &str) {
-        self.say(doing);
+        self.progress.say(doing);
     }
 }

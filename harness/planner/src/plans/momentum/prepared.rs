@@ -2,21 +2,23 @@
 
 use std::path::Path;
 
-use inputs::plan::PlanFile;
+use inputs::{
+    plan::{PlanFile, keys::Activity},
+    reading::At,
+};
 use packing::assembly::spacecraft_of;
 use physics::guidance::timeline::Timeline;
 
 use super::{
-    flyby,
     flyby_task::Aim,
     layout::{check_arrays, check_spans, layout, refit, sets_of},
-    prices,
     timeline::MissionTimeline,
+    update::update_time_s,
 };
 use crate::{
     Failure,
     momentum::{refit_file::RefitValues, torque::SunlitSpacecraft, windows::Layout},
-    plans::flights::SimulatedMission,
+    plans::flights::{OUTSIDE, SimulatedMission},
 };
 
 /// A plan whose mission is open.
@@ -54,7 +56,7 @@ impl Prepared {
         mission.rows_s = file.every_s;
         mission.check_downlinks().map_err(in_mission)?;
         if let Some(at) = &file.update {
-            flyby::update_time_s(file, &at.it, &mission)?;
+            update_time_s(file, &at.it, &mission)?;
         }
         let file = frozen_until_from(file, &mission)?;
         let is_updated = file.update.is_some();
@@ -83,12 +85,26 @@ impl Prepared {
         let sunlit = mission.sunlit(own)?;
         let aim = file.flyby.as_ref().map(|at| Aim::new(&file, &at.it, &mission)).transpose()?;
         for at in &file.activities {
-            prices::span_s(&file, at, &mission)?;
+            span_s(&file, at, &mission)?;
         }
         let cruise = (!is_in_orbit && !is_updated).then(|| layout(&file, &mission, &timeline, &sunlit));
         let cruise = cruise.transpose()?;
         Ok(Self { file, mission, timeline, sunlit, refit, sets, aim, cruise })
     }
+}
+
+/// When an activity begins and ends, in s of the mission.
+pub(super) fn span_s(
+    file: &PlanFile,
+    at: &At<Activity>,
+    mission: &SimulatedMission,
+) -> Result<[f64; 2], String> {
+    let [from_s, to_s] = [at.it.start, at.it.stop].map(|instant| mission.time_in_file_s(file, at, instant));
+    let (from_s, to_s) = (from_s?, to_s?);
+    if from_s < mission.start_s || to_s > mission.stop_s {
+        return Err(file.problem(at, OUTSIDE));
+    }
+    Ok([from_s, to_s])
 }
 
 /// A plan whose `[flyby] from` says until when the mission stays as it is.

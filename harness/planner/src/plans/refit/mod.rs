@@ -11,6 +11,7 @@ use files::{
     Destination,
     outcome::{self, Answer, Outcome},
 };
+use isolation::interrupt;
 
 use crate::refit::{Deviations, Requested, Telemetry, fit};
 use flights::RefitMission;
@@ -38,6 +39,9 @@ pub fn run(arguments: &Refit) -> Outcome {
     let fitted =
         fit(&mission, &requested, &mut |_, expected| bar.set_length((expected as f64 * span_s) as u64));
     bar.finish_and_clear();
+    if interrupt::raised() {
+        return Ok(Answer::Interrupted);
+    }
     let fitted = fitted.map_err(|error| format!("{}: {error}", arguments.mission.display()))?;
     let found = Found {
         mission: arguments.mission.display().to_string(),

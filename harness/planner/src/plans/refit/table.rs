@@ -5,7 +5,10 @@ use std::fmt::Write;
 use fmi::csv::Real;
 use nalgebra::Vector4;
 
-use crate::refit::{Deviations, Direction, Fitted, Parameters};
+use crate::{
+    refit::{Deviations, Direction, Fitted, Parameters},
+    text_table::headed,
+};
 
 /// Results of the fit.
 pub(super) struct Found<'a> {
@@ -36,7 +39,7 @@ impl Found<'_> {
     }
 
     fn values(&self) -> String {
-        let mut table = terminal::table(&["", "prior", "deviation", "found", "deviation"]);
+        let mut table = headed(" | prior | deviation | found | deviation");
         let names =
             ["centre of mass X [mm]", "centre of mass Y [mm]", "centre of mass Z [mm]", "solar.scale"];
         let (prior, prior_deviations) = (self.prior.values(), self.prior_deviations());
@@ -63,17 +66,8 @@ impl Found<'_> {
     }
 
     fn directions(&self) -> String {
-        let mut table = terminal::table(&[
-            "X",
-            "Y",
-            "Z",
-            "scale",
-            "sigma",
-            "sigma [mm]",
-            "sigma [% of scale]",
-            "determined",
-        ])
-        .narrow();
+        let mut table =
+            headed("X | Y | Z | scale | sigma | sigma [mm] | sigma [% of scale] | determined").narrow();
         let prior_deviations = self.prior_deviations();
         for it in &self.fitted.directions {
             let sigma = it.vector.component_mul(&prior_deviations) * it.sigma;

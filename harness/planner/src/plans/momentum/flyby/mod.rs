@@ -3,19 +3,14 @@
 mod campaign;
 mod compared;
 mod picture;
-mod update;
 
 use inputs::{
     plan::{PlanFile, keys::Compare},
     reading::At,
 };
-use nalgebra::Vector2;
 use physics::constants::DAY_S;
 
-pub(super) use self::{
-    picture::{desired, plane},
-    update::{update_time_s, updated},
-};
+pub(super) use self::picture::{desired, plane};
 use super::{flyby_task::FlybyTask, planned::Planned};
 use crate::{
     Failure,
@@ -24,6 +19,7 @@ use crate::{
         report::{FlybyReport, encounter_of, partials_csv, sensitivity_csv},
     },
     momentum::{
+        Region,
         attainable::{Reachable, meets_target, reachable},
         plan::MomentumPlan,
     },
@@ -34,16 +30,6 @@ const DESIRED_S: f64 = 86_400.0;
 
 /// Names of files that only plans with a flyby have.
 pub(super) const NAMES: [&str; 3] = ["desired.csv", "sensitivity.csv", "partials.csv"];
-
-/// Whether a correction is within the reach that was found.
-fn holds(polygon_m: &[[f64; 2]], correction_m: Vector2<f64>) -> bool {
-    let mut pairs = polygon_m.iter().zip(polygon_m.iter().cycle().skip(1));
-    let is_left = |(from, to): (&[f64; 2], &[f64; 2])| {
-        let (from, to) = (Vector2::from(*from), Vector2::from(*to));
-        (to - from).perp(&(correction_m - from)) >= 0.0
-    };
-    polygon_m.len() > 2 && pairs.all(is_left)
-}
 
 /// Refuses times that the flight does not have, before anything is planned.
 pub(super) fn check(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<(), Failure> {
@@ -59,14 +45,11 @@ pub(super) fn check(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<(),
 /// Report as far as it is known before the plan.
 pub(super) fn before(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<FlybyReport, Failure> {
     let mut simulates = planned;
-    let reach = reachable(&planned.task, &planned.sunlit, &planned.simulated, &mut simulates);
-    let reach = reach.map_err(|error| error.to_string())?;
+    let reach = reachable(&planned.task, &planned.sunlit, &planned.simulated, &mut simulates)?;
     let miss = flyby_task.first_miss();
     // The reach is a lower bound: the programme of the plan decides beyond it.
-    let is_found = holds(&reach.polygon_m, -miss.xy()) || {
-        let met = meets_target(&planned.task, &planned.sunlit, &planned.simulated, &mut simulates);
-        met.map_err(|error| error.to_string())?
-    };
+    let is_found = Region { corners: reach.polygon_m.clone() }.holds((-miss.xy()).into())
+        || meets_target(&planned.task, &planned.sunlit, &planned.simulated, &mut simulates)?;
     let from_s = planned.task.layout.frozen_until_s.max(planned.mission.start_s);
     let epoch_s = flyby_task.first.encounter.epoch_s;
     let days = (0..).map(|day| from_s + f64::from(day) * DESIRED_S).take_while(|at_s| *at_s < epoch_s);
@@ -88,10 +71,15 @@ pub(super) fn before(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<Fl
 
 /// The encounter of the mission as it is.
 fn reported(flyby_task: &FlybyTask) -> FlybyReport {
+    let force_model = &flyby_task.force_model;
     FlybyReport {
         aimpoint_m: flyby_task.aimpoint.b_m,
-        epoch_minus_time_s: flyby_task.force_model.epoch_minus_time_s,
+        epoch_minus_time_s: force_model.epoch_minus_time_s,
+        body: force_model.body.data().name,
         radius_m: flyby_task.radius_m,
+        gm_m3_s2: force_model.gm_m3_s2,
+        lead_s: force_model.lead_s,
+        is_timed: flyby_task.aimpoint.arrival_s.is_some(),
         miss: [None, None],
         encounter: encounter_of(&flyby_task.first, flyby_task.radius_m),
         is_out_of_reach: false,
@@ -108,11 +96,6 @@ pub(super) fn without_aim(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Resu
     let of = |at: &At<Compare>| compared::compared(file, &at.it, (planned, flyby_task), &flyby_task.first);
     let compared = file.compare.as_ref().map(of).transpose()?;
     Ok(FlybyReport { compared, ..reported(flyby_task) })
-}
-
-/// `partials.csv` of the mission as it is.
-pub(super) fn first_partials(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<String, Failure> {
-    Ok(String::from_utf8(partials_csv(&flyby_task.first, &planned.simulated)?)?)
 }
 
 /// Completes the report by the plan's flight, manoeuvres and dispersed flights; returns `sensitivity.csv` and `partials.csv`.
@@ -137,25 +120,22 @@ pub(super) fn complete(
             Some(campaign::simulated(&mission, (at.it, covariance), (flyby_task, arrival_s), planned)?);
     }
     let by_window = lead_by_windows(&after, &planned.sunlit, &flight, &found.windows);
-    let by_state = partials_csv(&after, &flight)?;
-    Ok([String::from_utf8(sensitivity_csv(&found.windows, &by_window)?)?, String::from_utf8(by_state)?])
+    Ok([sensitivity_csv(&found.windows, &by_window), partials_csv(&after, &flight)])
 }
 
 /// Summary of the report, in lines.
-pub(super) fn summary(report: &FlybyReport, flyby_task: &FlybyTask) -> Vec<String> {
+pub(super) fn summary(report: &FlybyReport) -> Vec<String> {
     let km = |length_m: f64| terminal::short(length_m / 1e3);
     let [arrival_s, osculation_s, altitude_m, excess_m_s] = report.encounter;
     let lead_h = terminal::short((arrival_s - osculation_s) / 3600.0);
     let missed = |label: &str, miss: &nalgebra::Vector3<f64>| {
-        let late = match flyby_task.aimpoint.arrival_s {
-            Some(_) => format!(", {} s late", terminal::short(miss.z)),
-            None => String::new(),
-        };
+        let late =
+            if report.is_timed { format!(", {} s late", terminal::short(miss.z)) } else { String::new() };
         format!("{label} misses by {} km along T, {} km along R{late}", km(miss.x), km(miss.y))
     };
-    let name = flyby_task.force_model.body.data().name;
     let mut lines = vec![format!(
-        "{name}, {lead_h} h before closest approach: aim B.T {} km, B.R {} km; closest approach {} km above it, excess speed {} km/s",
+        "{}, {lead_h} h before closest approach: aim B.T {} km, B.R {} km; closest approach {} km above it, excess speed {} km/s",
+        report.body,
         km(report.aimpoint_m[0]),
         km(report.aimpoint_m[1]),
         km(altitude_m),
@@ -211,19 +191,4 @@ pub(super) fn summary(report: &FlybyReport, flyby_task: &FlybyTask) -> Vec<Strin
         ));
     }
     lines
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_correction_counts_within_the_polygon() {
-        let square = [[-1e5, -1e4], [1e5, -1e4], [1e5, 2e4], [-1e5, 2e4]];
-        let cases = [([9e4, 0.0], true), ([1.1e5, 0.0], false), ([0.0, -2e4], false)];
-        for (correction, is) in cases {
-            assert_eq!(holds(&square, Vector2::from(correction)), is, "{correction:?}");
-        }
-        assert!(!holds(&[], Vector2::zeros()) && !holds(&square[..2], Vector2::zeros()));
-    }
 }

@@ -3,7 +3,6 @@
 use drawing::{Chart, Panel, PlaneChart, PlanePanel, Series, ellipse};
 use physics::constants::DAY_S;
 
-use super::super::flyby_task::FlybyTask;
 use crate::flyby::{
     aimpoint::b_of_periapsis_m,
     maneuvers,
@@ -14,13 +13,13 @@ use crate::flyby::{
 const SIGMAS: f64 = 3.0;
 
 /// The B-plane, in km from the planet's centre; the picture has T to the right and R down, as seen along the asymptote.
-pub(crate) fn plane(report: &FlybyReport, flyby_task: &FlybyTask) -> PlaneChart {
+pub(crate) fn plane(report: &FlybyReport) -> PlaneChart {
     let km = |[t_m, r_m]: [f64; 2]| (t_m / 1e3, -r_m / 1e3);
     let aimpoint = report.aimpoint_m;
     let place = |miss: &Option<nalgebra::Vector3<f64>>| {
         miss.map(|miss| km([aimpoint[0] + miss.x, aimpoint[1] + miss.y])).into_iter().collect::<Vec<_>>()
     };
-    let impact_m = b_of_periapsis_m(report.radius_m, flyby_task.force_model.gm_m3_s2, report.encounter[3]);
+    let impact_m = b_of_periapsis_m(report.radius_m, report.gm_m3_s2, report.encounter[3]);
     let before = report.miss[0].unwrap_or_default();
     let mut reach: Vec<(f64, f64)> = report
         .reach
@@ -51,15 +50,14 @@ pub(crate) fn plane(report: &FlybyReport, flyby_task: &FlybyTask) -> PlaneChart 
         .fold(0.0_f64, |far, (x, y)| far.max(x.abs()).max(y.abs()));
     let near = |(x, y): (f64, f64)| (x - km(aimpoint).0).abs().max((y - km(aimpoint).1).abs());
     let close = reach.iter().copied().chain(place(&report.miss[0])).map(near).fold(1.0, f64::max);
-    let name = flyby_task.force_model.body.data().name;
-    let hours = terminal::short(flyby_task.force_model.lead_s / 3600.0);
+    let hours = terminal::short(report.lead_s / 3600.0);
     PlaneChart {
-        title: format!("B-plane at {name}, hyperbola osculating {hours} h before closest approach"),
+        title: format!("B-plane at {}, hyperbola osculating {hours} h before closest approach", report.body),
         x_label: "B.T [km]".to_owned(),
         y_label: "-B.R [km]".to_owned(),
         panels: vec![
             PlanePanel {
-                title: name.to_owned(),
+                title: report.body.to_owned(),
                 series: series(),
                 half_width: 1.15 * farthest.max(impact_m / 1e3),
                 ..PlanePanel::default()

@@ -1,21 +1,22 @@
 //! The planner's answer as text.
 
-use std::{fmt::Write, path::Path};
+use std::path::Path;
 
 use fmi::Fmu;
-use physics::{constants::RPM_RAD_S, spin::spinner::Spinner};
+use physics::{
+    constants::{DAY_S, RPM_RAD_S},
+    spin::spinner::Spinner,
+};
 
-use super::{
-    Options, PlanError, PlannedBurn, Task, TrainForecast, Verification, best,
+use super::{months::months, tables};
+use crate::spin::{
+    PlanError, PlannedBurn, Task, TrainForecast, TurnRequest, Verification, Way, best,
     choice::{broken_limits, by_all_limits},
     flight::simulated,
     frontier,
     limit_checks::{broken, check_limits},
-    months::months,
     options::ACE,
-    start_values, tables, timing_label, trade,
-    turn_geometry::{Way, right_ascension_declination_deg},
-    uniform_plan, verify,
+    right_ascension_declination_deg, start_values, timing_label, trade, uniform_plan, verify,
 };
 
 /// Ratios simulated through the FMU.
@@ -27,7 +28,7 @@ const SHIPPED_FMU: &str = "dist/SpinPlant.fmu";
 
 /// The planner's answer.
 #[derive(Clone, Debug)]
-pub struct Answer {
+pub(crate) struct Answer {
     /// Ready to print.
     pub text: String,
     /// The burn, where one was planned.
@@ -36,21 +37,21 @@ pub struct Answer {
     pub broken: Vec<&'static str>,
 }
 
-/// Plans by the options.
+/// Plans a turn, or a campaign of them.
 ///
 /// # Errors
 /// Options out of range, a spacecraft that cannot be read, limits that no plan keeps, an FMU that does not simulate.
-pub fn plan(options: &Options) -> Result<Answer, PlanError> {
-    let spinner = spacecraft(options)?;
-    let task = Task::new(options, &spinner)?;
-    match options.campaign_s.map(|it| it / 86_400.0) {
+pub(crate) fn plan(request: &TurnRequest) -> Result<Answer, PlanError> {
+    let spinner = spacecraft(request)?;
+    let task = Task::new(request, &spinner)?;
+    match request.campaign_s.map(|it| it / DAY_S) {
         Some(days) => Ok(Answer { text: months(&spinner, &task, days)?, burn: None, broken: Vec::new() }),
-        None => one_manoeuvre(options, &spinner, task),
+        None => one_manoeuvre(request, &spinner, task),
     }
 }
 
-fn spacecraft(options: &Options) -> Result<Spinner, PlanError> {
-    let Some(path) = &options.spacecraft else {
+fn spacecraft(request: &TurnRequest) -> Result<Spinner, PlanError> {
+    let Some(path) = &request.spacecraft else {
         return Spinner::parse("ace.toml", ACE).map_err(|error| PlanError::Refused(error.to_string()));
     };
     let name = path.display().to_string();
@@ -59,45 +60,15 @@ fn spacecraft(options: &Options) -> Result<Spinner, PlanError> {
     Spinner::parse(&name, &text).map_err(|error| PlanError::Refused(error.to_string()))
 }
 
-fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Answer, PlanError> {
+fn one_manoeuvre(request: &TurnRequest, spinner: &Spinner, task: Task) -> Result<Answer, PlanError> {
     let rows = trade(&task)?;
     best(&rows)?;
     let candidates = by_all_limits(spinner, &task, &rows, MAX_SIMULATED)?;
-    let (chosen, simulations) = simulated_again(options, &task, &candidates)?;
+    let (chosen, simulations) = simulated_again(request, &task, &candidates)?;
     let flight = simulated(spinner, &task, chosen)?;
     let checks = check_limits(spinner, &task, chosen, &flight);
     let broken = broken(&checks);
-    let mut text = String::new();
-    let spin = &task.case.spin;
-    let mut line = |line: &str| {
-        let _ = writeln!(text, "{line}");
-    };
-    line(&format!(
-        "Turn by {:.4} deg with {} ({:.3} N m), pulses by {}, ratio {:.4} +- {:.4}, {:.3} +- {:.3} rpm",
-        task.angle_rad.to_degrees(),
-        task.thruster,
-        task.case.torque_n_m,
-        timing_label(task.case.timing),
-        spin.ratio,
-        task.range.ratio,
-        spin.rate_rad_s / RPM_RAD_S,
-        task.range.rate_rad_s / RPM_RAD_S,
-    ));
-    line(&format!(
-        "From {} to {}, Sun at {}{}: {}",
-        place(&task.geometry.axis_inertial),
-        place(&task.geometry.target_inertial),
-        place(&task.geometry.sun_inertial),
-        task.geometry
-            .earth_inertial
-            .map_or_else(String::new, |earth| format!(", Earth at {}", place(&earth))),
-        task.geometry.origin,
-    ));
-    line(&format!(
-        "Science bears {:.5} deg of nutation at a Sun angle of {:.4} deg",
-        task.allowed_nutation_rad.to_degrees(),
-        task.sun_angle_rad.to_degrees(),
-    ));
+    let mut lines = head(&task);
     let uniform = uniform_plan(&task)?;
     let beaten_by_none = frontier(&rows);
     let others = beaten_by_none.iter().copied().filter(|row| row.train != chosen.train);
@@ -105,15 +76,13 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
     let keeps = |row: &TrainForecast| {
         row.fits && broken_limits(spinner, &task, row).is_ok_and(|broken| broken.is_empty())
     };
-    if let Some(table) = tables::trade(&shown, &uniform, options.rows, &checks, keeps) {
-        line(&table);
-    }
-    line(&format!(
+    lines.extend(tables::trade(&shown, &uniform, request.rows, &checks, keeps));
+    lines.push(format!(
         "Of {} trains {} are not beaten in final nutation, peak and time at once.",
         rows.len(),
         beaten_by_none.len()
     ));
-    line(&format!(
+    lines.push(format!(
         "Least final nutation{}: {}, {} pulses, {:.2} min; moves {:.4} of {:.4} deg ({:+.1} %), peak nutation \
          {:.5} deg ({:.1} times the uniform plan's)",
         if broken.is_empty() { " within the limits" } else { ", with the fewest limits broken" },
@@ -127,44 +96,84 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
         chosen.peak_rad / uniform.peak_rad,
     ));
     if !broken.is_empty() {
-        line(&format!(
-            "No train keeps every limit of the spacecraft's file; this one breaks: {}",
-            broken.join(", ")
-        ));
+        let broken = broken.join(", ");
+        lines.push(format!("No train keeps every limit of the spacecraft's file; this one breaks: {broken}"));
     }
-    simulations.iter().for_each(|simulation| line(simulation));
-    line(&format!(
-        "Simulated pulse by pulse it ends at {}, {:.4} deg from the target, with {:.5} deg of nutation",
-        place(&flight.end_axis_inertial()),
-        flight.miss_rad(&task).to_degrees(),
-        flight.samples.last().map_or(f64::NAN, |sample| sample.nutation_rad).to_degrees(),
-    ));
-    let great_circle = task.geometry.great_circle();
-    line(&format!("Great circle, as simulated: {}", way(&great_circle)));
-    line(&match task.geometry.rhumb_line() {
-        Some(rhumb_line) => format!(
-            "Rhumb line about the Sun, with one delay after each Sun crossing: {}, {:+.2} % of way and propellant",
-            way(&rhumb_line),
-            100.0 * (rhumb_line.length_rad / great_circle.length_rad - 1.0),
+    lines.extend(simulations);
+    let (name, row) = (spinner.name.clone(), chosen.clone());
+    let burn = PlannedBurn { name, epoch_s: request.date, task, row, flight, checks };
+    lines.extend(ways(&burn));
+    lines.push(
+        "Limits of the spacecraft's file, as simulated, and of the flags, at their worst over the range:"
+            .into(),
+    );
+    lines.push(tables::limits(&burn.checks));
+    if request.output.is_none() {
+        lines.push(
+            "--output FOLDER writes the burn pulse by pulse, the start values as [start], and a picture"
+                .into(),
+        );
+    }
+    lines.push(
+        "Start values, for `heliotorque run` of the spacecraft's SpinPlant and for `heliotorque pack`:"
+            .into(),
+    );
+    lines.push(start_values::options(&burn.start_values()));
+    Ok(Answer { text: lines.join("\n"), burn: Some(burn), broken })
+}
+
+/// The turn and what is known of the spacecraft.
+fn head(task: &Task) -> Vec<String> {
+    let (spin, geometry) = (&task.case.spin, &task.geometry);
+    let earth = geometry.earth_inertial.map(|earth| format!(", Earth at {}", place(&earth)));
+    vec![
+        format!(
+            "Turn by {:.4} deg with {} ({:.3} N m), pulses by {}, ratio {:.4} +- {:.4}, {:.3} +- {:.3} rpm",
+            task.angle_rad.to_degrees(),
+            task.thruster,
+            task.case.torque_n_m,
+            timing_label(task.case.timing),
+            spin.ratio,
+            task.range.ratio,
+            spin.rate_rad_s / RPM_RAD_S,
+            task.range.rate_rad_s / RPM_RAD_S,
         ),
-        None => "No rhumb line: the Sun stands on the spin axis".to_owned(),
-    });
-    line("Limits of the spacecraft's file, as simulated, and of the flags, at their worst over the range:");
-    line(&tables::limits(&checks));
-    let burn = PlannedBurn {
-        name: spinner.name.clone(),
-        epoch_s: options.date,
-        task,
-        row: chosen.clone(),
-        flight,
-        checks,
-    };
-    if options.output.is_none() {
-        line("--output FOLDER writes the burn pulse by pulse, the start values as [start], and a picture");
-    }
-    line("Start values, for `heliotorque run` of the spacecraft's SpinPlant and for `heliotorque pack`:");
-    line(&start_values::options(&burn.start_values()));
-    Ok(Answer { text, burn: Some(burn), broken })
+        format!(
+            "From {} to {}, Sun at {}{}: {}",
+            place(&geometry.axis_inertial),
+            place(&geometry.target_inertial),
+            place(&geometry.sun_inertial),
+            earth.unwrap_or_default(),
+            geometry.origin,
+        ),
+        format!(
+            "Science bears {:.5} deg of nutation at a Sun angle of {:.4} deg",
+            task.allowed_nutation_rad.to_degrees(),
+            task.sun_angle_rad.to_degrees(),
+        ),
+    ]
+}
+
+/// The end of the turn as simulated, and the two ways to it.
+fn ways(PlannedBurn { task, flight, .. }: &PlannedBurn) -> Vec<String> {
+    let great_circle = task.geometry.great_circle();
+    vec![
+        format!(
+            "Simulated pulse by pulse it ends at {}, {:.4} deg from the target, with {:.5} deg of nutation",
+            place(&flight.end_axis_inertial()),
+            flight.miss_rad(task).to_degrees(),
+            flight.samples.last().map_or(f64::NAN, |sample| sample.nutation_rad).to_degrees(),
+        ),
+        format!("Great circle, as simulated: {}", way(&great_circle)),
+        match task.geometry.rhumb_line() {
+            Some(rhumb_line) => format!(
+                "Rhumb line about the Sun, with one delay after each Sun crossing: {}, {:+.2} % of way and propellant",
+                way(&rhumb_line),
+                100.0 * (rhumb_line.length_rad / great_circle.length_rad - 1.0),
+            ),
+            None => "No rhumb line: the Sun stands on the spin axis".to_owned(),
+        },
+    ]
 }
 
 /// Right ascension and declination of a direction.
@@ -192,17 +201,17 @@ fn way(way: &Way) -> String {
 /// The plan to take and what the FMU computes for it: the first that keeps in simulation what it promised, or the first if none
 /// is simulated, with the reason.
 fn simulated_again<'a>(
-    options: &Options,
+    request: &TurnRequest,
     task: &Task,
     rows: &[&'a TrainForecast],
 ) -> Result<(&'a TrainForecast, Vec<String>), PlanError> {
     let first =
         || rows.first().copied().ok_or_else(|| PlanError::Flight("no train was simulated".to_owned()));
     let not_simulated = |why: String| Ok((first()?, vec![format!("Not re-simulated: {why}")]));
-    let named = options.template.as_deref();
+    let named = request.template.as_deref();
     let path = match named {
         Some(path) => path,
-        None if options.spacecraft.is_some() => {
+        None if request.spacecraft.is_some() => {
             return not_simulated(format!(
                 "{SHIPPED_FMU} may be of another spacecraft; give this one's FMU by --template"
             ));

@@ -28,7 +28,7 @@ const TIMELINE: &str = "timeline.toml";
 const STATE: [&str; 3] = ["position", "velocity", "momentum.body"];
 
 /// When the state of `[update]` holds, in s of the mission as it is.
-pub(crate) fn update_time_s(
+pub(super) fn update_time_s(
     file: &PlanFile,
     update: &Update,
     mission: &SimulatedMission,
@@ -44,7 +44,7 @@ pub(crate) fn update_time_s(
 }
 
 /// A plan whose mission begins with the state of `[update]`, in a folder that lasts as long as it is in use.
-pub(crate) fn updated(
+pub(super) fn updated(
     file: &PlanFile,
     at: &At<Update>,
     mission: &SimulatedMission,

@@ -2,11 +2,14 @@
 
 use terminal::Table;
 
-use super::{TrainForecast, limit_checks::LimitCheck};
+use crate::{
+    spin::{LimitCheck, TrainForecast},
+    text_table::headed,
+};
 
 /// A table whose columns stand one space apart.
-pub(super) fn narrow(header: &[&str]) -> Table {
-    terminal::table(header).narrow()
+pub(super) fn narrow(header: &str) -> Table {
+    headed(header).narrow()
 }
 
 /// `count` rows of a trade: the best trains, and the uniform plan as the last; `None` for no rows. `keeps` says which keep the
@@ -23,9 +26,8 @@ pub(super) fn trade(
     if trains == 0 {
         return None;
     }
-    let mut table = narrow(&[
-        "train", "n", "ms", "min", "left deg", "peak deg", "moved", "g", "saved h", "lost h", "limits",
-    ]);
+    let mut table =
+        narrow("train | n | ms | min | left deg | peak deg | moved | g | saved h | lost h | limits");
     let is_uniform = |row: &TrainForecast| row.train == uniform.train;
     let others: Vec<&TrainForecast> =
         rows.iter().copied().filter(|row| !(with_uniform && is_uniform(row))).collect();
@@ -70,7 +72,7 @@ fn cells(row: &TrainForecast, keeps: bool, mark: &str) -> Vec<String> {
 
 /// Table of every limit with the plan's value.
 pub(super) fn limits(checks: &[LimitCheck]) -> String {
-    let mut table = narrow(&["limit", "found", "allowed", "verdict"]);
+    let mut table = narrow("limit | found | allowed | verdict");
     for one in checks {
         let (least, most) = one.allowed;
         let allowed = if least > 0.0 {

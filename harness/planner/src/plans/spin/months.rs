@@ -7,7 +7,8 @@ use physics::{
     spin::{geometry::L1Phases, spinner::Spinner},
 };
 
-use super::{PlanError, Task, campaign, longest_interval_s, tables::narrow, windows};
+use super::tables::narrow;
+use crate::spin::{PlanError, Task, campaign, longest_interval_s, windows};
 
 /// Longest campaign: ten years.
 const MAX_DAYS: f64 = 3653.0;
@@ -26,9 +27,8 @@ pub(super) fn months(spinner: &Spinner, task: &Task, days: f64) -> Result<String
     intervals.sort_by(f64::total_cmp);
     let turns = intervals.iter().map(|interval_s| u64::from(windows(duration_s, *interval_s)));
     let bar = terminal::progress(turns.sum(), "turns", false);
-    let mut table = narrow(&[
-        "every", "turns", "mean", "most", "Earth", "Sun", "kg", "turning", "lost", "uniform", "limits",
-    ]);
+    let mut table =
+        narrow("every | turns | mean | most | Earth | Sun | kg | turning | lost | uniform | limits");
     for interval_s in intervals {
         let row = campaign(spinner, task, &phases, [duration_s, interval_s], &mut || bar.inc(1))?;
         let deg = |angle: f64| format!("{:.3}", angle.to_degrees());
