@@ -162,7 +162,7 @@ class Run:
                 print(f"\r{number} of {len(cases)} cases", end="\n" if number == len(cases) else "", file=sys.stderr)
 
     def heliotorque(self, *arguments, accepted=(0,)):
-        """What the program `heliotorque` prints, called with these arguments; another status than those accepted is a failure."""
+        """Output of the program `heliotorque`, called with these arguments; another status than those accepted is a failure."""
         program = self.options.heliotorque or os.environ.get("HELIOTORQUE") or shutil.which("heliotorque")
         if program is None:
             raise Failure("found no program heliotorque: see --heliotorque")

@@ -19,7 +19,7 @@ def program(heliotorque, dist, folder, name, *options):
 
 
 def study(heliotorque, dist, folder, name, cores, *options):
-    """What the study prints and the content of the files it leaves, by name; `momentum/table2` is `momentum/tables --table 2`."""
+    """Output of the study and the content of the files it leaves, by name; `momentum/table2` is `momentum/tables --table 2`."""
     if table := re.fullmatch("momentum/table([2-5])", name):
         name, options = "momentum/tables", (*options, "--table", table[1])
     allowed = sorted(os.sched_getaffinity(0))[:cores]

@@ -110,7 +110,7 @@ mod tests {
     fn commands_of_the_same_first_words_are_one_step() {
         assert_eq!(step_name("cargo test --no-run --tests --locked"), "cargo test --no-run");
         assert_eq!(step_name("heliotorque pack --name A --model B"), "heliotorque pack --name");
-        assert_eq!(step_name("client /work/lib.so --short"), "client");
+        assert_eq!(step_name("client target/lib.so --short"), "client");
         assert_eq!(step_name("python -m pytest -q"), "python -m pytest");
     }
 

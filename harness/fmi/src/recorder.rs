@@ -63,7 +63,7 @@ mod reals {
 }
 
 impl Row<'_> {
-    /// How many values of each base type it has: Reals, Integers, Booleans, Strings.
+    /// Number of values of each base type: Reals, Integers, Booleans, Strings.
     pub fn widths(&self) -> [usize; 4] {
         [self.reals.len(), self.integers.len(), self.booleans.len(), self.texts.len()]
     }

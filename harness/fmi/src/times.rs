@@ -123,7 +123,7 @@ impl RecordedPoints {
         k == self.steps || (multiple * self.spacing).round() == k as f64
     }
 
-    /// How many they are.
+    /// Number of these points.
     pub fn count(&self) -> u64 {
         // A multiple half a step after a point belongs to the next one.
         let multiples = ((self.steps as f64 + 0.5) / self.spacing).ceil() as u64;

@@ -68,7 +68,7 @@ impl Simulation {
     /// Simulates one flight.
     ///
     /// # Errors
-    /// What is refused before the first step, and Ctrl-C.
+    /// Settings that are refused before the first step, and Ctrl-C.
     pub(crate) fn fly(&self, flight: &Flight<'_>) -> Result<Flown, Failure> {
         let description = self.fmu.description();
         let counter = || description.variables.iter().position(|it| it.name == "dump.count");

@@ -98,7 +98,7 @@ def simulated(loop, label, step_s):
 
 
 class Checks:
-    """What paper 001 says of its safe modes, looked for in a flight: statements, whether they hold, and what the flight shows."""
+    """Statements of paper 001 on its safe modes, looked for in a flight: statements, whether they hold, and what the flight shows."""
 
     def __init__(self, loop, flight):
         self.flight, self.time_s, self.stop_s, self.rows = flight, flight.time_s, flight.time_s[-1], []
@@ -125,7 +125,7 @@ class Checks:
         return (self.time_s >= from_s) & (self.time_s <= to_s)
 
     def after_s(self, since_s, is_so):
-        """How long after a time something was first so."""
+        """Time from an instant until a condition first holds."""
         found = self.time_s[is_so & (self.time_s >= since_s)]
         return found[0] - since_s if len(found) > 0 else np.nan
 
@@ -158,7 +158,7 @@ class Checks:
         self.add(statement, holds, f"+Z within {brief(off_deg)} deg of the Sun")
 
     def outside_deg(self, directions, zone_deg):
-        """How far outside a zone body directions are; negative within."""
+        """Angles by which body directions are outside a zone; negative within."""
         return np.max(np.abs(body_angles_deg(directions)) - zone_deg, axis=-1)
 
     def attitude_lost(self):

@@ -81,7 +81,7 @@ class Plant:
         self.axes = unit(axes)
 
     def events(self, slew, target_q, ideal_s):
-        """What is set when: the time, the variable, its values before and from then on."""
+        """Changes of settings: the time, the variable, its values before and from then on."""
         wheel = f"wheel[{FAILED_WHEEL}].failed"
         never = np.full(3, NEVER_N_M_S)
         events = {
@@ -142,7 +142,7 @@ class Flight:
         self.is_limited = np.any(self.found["control.saturated"] == 1.0)
 
     def verdict(self):
-        """What became of the slew."""
+        """Result of the slew."""
         if self.settled_s is None:
             return "does not settle"
         is_free = len(self.full_s) == 0 and not self.is_limited

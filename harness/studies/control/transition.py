@@ -48,7 +48,7 @@ HISTORY = (
 
 
 def steer(time_s, read):
-    """What is commanded at a second: downlink, then the camera at nadir."""
+    """Command at a second: downlink, then the camera at nadir."""
     if time_s < SLEW_S:
         return {"guidance.pointing.scenario": "downlink"} if time_s == 0.0 else {}
     position_m = read("plant.position")

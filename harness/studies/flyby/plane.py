@@ -14,7 +14,7 @@ IN_REACH = "in reach of sunlight"
 
 
 class Target:
-    """What a flight is aimed at, where a leg meets its B-plane as its mission is, and what misses come to there.
+    """Aim of a flight, the point at which a leg meets its B-plane as its mission is, and the effects of misses there.
 
     The cost of a miss is the manoeuvre 30 d behind the encounter that leads back to where the nominal flight is at the next flyby.
     """

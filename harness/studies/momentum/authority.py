@@ -76,7 +76,7 @@ def changes(controls):
 
 
 class Worth:
-    """What a distance and an offset leave, by body axes, in N m s a day: without a change, and by a degree, a centimetre or an
+    """Momentum that a distance and an offset leave, by body axes, in N m s a day: without a change, and by a degree, a centimetre or an
     alternation of each control."""
 
     def __init__(self, distance_au, offset_deg, controls, momentum_n_m_s):
@@ -200,7 +200,7 @@ def balance(spacecraft, worths):
 
 
 def draw(run, spacecraft, worths):
-    """Of every control the worth by offset, a line each distance; where there are no panels by distance."""
+    """Authority of every control by offset, a line each distance; where there are no panels by distance."""
     shown = [
         (control, title, per, Worth.size) for control, (title, per, *_) in CONTROLS.items() if control in spacecraft.controls
     ]

@@ -71,7 +71,7 @@ class Case:
         return ", ".join(f"{100.0 * INCH_M * inches:+.2f}" for inches in self.offset_in) + " cm"
 
     def label(self):
-        """What it is called in files and filters."""
+        """Name in files and filters."""
         choice = "" if self.choice == STUDY else f", {self.choice}"
         return (
             f"{self.strategy}, {plain(self.threshold_n_m_s)} N.m.s, to {self.dumps_to}, {self.shade}, {self.convention} momentum"
@@ -83,7 +83,7 @@ class Case:
         return [f"{plain(self.threshold_n_m_s)} N.m.s", self.dumps_to, self.shade, self.convention, self.strategy]
 
     def settings(self):
-        """What is set."""
+        """Settings of the case."""
         settings = {
             "solar.fixedPressure": True,
             "gravityGradient.enabled": False,
@@ -136,7 +136,7 @@ class Spacing:
 
     @classmethod
     def of(cls, dumps_d):
-        """Of rising dump times."""
+        """Gaps of rising dump times."""
         gaps_d = np.diff(dumps_d)
         if len(gaps_d) == 0:
             return cls(len(dumps_d))
@@ -156,7 +156,7 @@ class Spacing:
         return "broken" if self.extremes_d is not None and self.extremes_d[0] < 5.0 else "kept"
 
     def against(self, stated):
-        """How this compares with what the paper states, whose "typical" is not defined."""
+        """Verdict on the paper's statement, whose "typical" is not defined."""
         if stated.extremes_d is None:
             return "no gap, as in the paper" if self.extremes_d is None else "off"
         is_near = self.extremes_d is not None and abs(self.extremes_d[0] / stated.extremes_d[0] - 1.0) <= 0.25

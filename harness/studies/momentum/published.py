@@ -56,7 +56,7 @@ class Published:
         return str(self.spacing.dumps) if self.spacing else f"{self.fewest} to {self.most}"
 
     def against(self, dumps):
-        """How a number of dumps compares."""
+        """Verdict on a number of dumps."""
         if self.spacing:
             return "within 2" if abs(dumps - self.spacing.dumps) <= COUNT_TOLERANCE else "off"
         return "comparable" if self.fewest <= dumps <= self.most else "off"

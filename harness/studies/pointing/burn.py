@@ -48,7 +48,7 @@ NAMES = [
 
 @dataclass(frozen=True)
 class Corrections:
-    """Which corrections act, theta ahead and beta behind, and the bias of the accelerometers."""
+    """Corrections that act, theta ahead and beta behind, and the bias of the accelerometers."""
 
     is_predictive: bool
     is_reactive: bool

@@ -1,4 +1,4 @@
-"""Where the transition of paper 001's Figures 7 and 8 from downlink to the camera begins."""
+"""Start of the transition of paper 001's Figures 7 and 8 from downlink to the camera."""
 
 from pointing.flight import days
 

@@ -22,7 +22,7 @@ def fmus(run):
 
 
 class Places:
-    """Where the spacecraft, Sun and Earth are, once a second; EME2000."""
+    """Positions of spacecraft, Sun and Earth, once a second; EME2000."""
 
     def __init__(self, seen, epoch_s):
         self.time_s, self.epoch_s = seen.time_s, epoch_s + seen.time_s
@@ -44,7 +44,7 @@ class Places:
 
 
 class Flight:
-    """What Guidance commands once a second, and where that is."""
+    """Commands of Guidance once a second, and the positions there."""
 
     def __init__(self, fmus, label, epoch_s, true_anomaly_deg, seconds, parameters, command):
         """Simulates; `command` gives the inputs of Guidance for all places, one row a second."""

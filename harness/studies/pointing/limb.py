@@ -63,7 +63,7 @@ def terminator(fmus):
 
 
 class Found:
-    """Where +Z passes the limb, found from the attitude alone, one row a second: limb points from the planet's centre, heights
+    """Crossings of the limb by +Z, found from the attitude alone, one row a second: limb points from the planet's centre, heights
     over them, angles from nadir and of the Sun in the body frame."""
 
     def __init__(self, flight, every_s=1):

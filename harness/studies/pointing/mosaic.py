@@ -43,7 +43,7 @@ class Motion:
         return self.duration_s + self.pause_s
 
     def start(self):
-        """Where it begins so that its positions lie about zero."""
+        """Start of the scan so that its positions lie about zero."""
         return -0.5 * (self.step if self.is_reversed else self.step * (self.segments + 1))
 
     def inputs(self, axis, rate, unit):
@@ -78,7 +78,7 @@ class Scan:
     is_planet_fixed: bool = False
 
     def inputs(self, guidance, place, planet):
-        """What is commanded from the first place on."""
+        """Commands from the first place on."""
         nadir, degree = unit(-place.position_m), np.radians(1.0)
         if self.mdis_deg is None:
             # Rows about Y, from row to row about X; the boresight begins where the scan turns it to +Z midway.
@@ -183,7 +183,7 @@ class Frame:
         return to_inertial(self.q, self.axes[0] + sides @ self.axes[1:])
 
     def on_planet_m(self, x, y):
-        """Where directions meet the planet or come nearest to it."""
+        """Points at which directions meet the planet or come nearest to it."""
         points, is_hit = self.ellipsoid.hit(self.place.position_m, self.directions(x, y))
         return self.ellipsoid.along_axes(points), is_hit
 

@@ -58,7 +58,7 @@ class Ellipsoid:
         return np.einsum("...i,...i->...", self.in_radii(surface), self.in_radii(from_m)) - 1.0
 
     def hit(self, from_m, directions):
-        """Where lines first meet the surface, and whether they do; other lines come nearest to it there, in units of the radii."""
+        """First points of lines on the surface, and whether they meet it; other lines come nearest to it there, in units of the radii."""
         origin, ray = self.in_radii(from_m), self.in_radii(directions)
         along, square = -np.einsum("...i,...i->...", origin, ray), np.einsum("...i,...i->...", ray, ray)
         inside = along * along - square * (np.einsum("...i,...i->...", origin, origin) - 1.0)

@@ -87,7 +87,7 @@ def half_arc_deg(fmu):
 
 
 def deadband_days(fmu):
-    """How long the Earth stays within 3 deg of an antenna that stands still, on a circular orbit: from 3 deg on one side, past
+    """Time for which the Earth stays within 3 deg of an antenna that stands still, on a circular orbit: from 3 deg on one side, past
     the antenna, to 3 deg on the other; the second half is simulated."""
     still = body() | HELD | {"geometry.source": "l1Orbit", "geometry.amplitude": [0.0, 0.0, 0.0]}
     x, y, z = -fmu.simulate("where the Earth stands", still, ["earth.inertial"], 600.0, 600.0)["earth.inertial"][0]
@@ -200,7 +200,7 @@ class WorstTrain:
         return f"final {self.final_deg:.5f} deg, peak {self.peak_deg:.4f} deg, {self.duration_min:.2f} min"
 
     def against(self, uniform):
-        """What the train gains over the paper's, and what it costs."""
+        """Gain of the train over the paper's, and its cost."""
         nutation, duration = uniform.final_deg / self.final_deg, uniform.duration_min / self.duration_min
         text = f"nutation 1/{nutation:.0f}, duration 1/{duration:.1f}, peak {self.peak_deg / uniform.peak_deg:.1f} times"
         return verdict(self.turns and nutation > 1.0 and duration > 1.0, text)

@@ -21,7 +21,7 @@ READ_DEG = 0.001
 
 
 def body(ratio=RATIO, quotient=1.0):
-    """What is set for the undamped body with I3/sqrt(I1 I2) = `ratio` and I1/I2 = `quotient`."""
+    """Settings of the undamped body with I3/sqrt(I1 I2) = `ratio` and I1/I2 = `quotient`."""
     transverse = SPIN_INERTIA_KG_M2 / ratio
     inertia = [transverse * math.sqrt(quotient), transverse / math.sqrt(quotient), SPIN_INERTIA_KG_M2]
     return {"inertia": inertia, "damper.timeConstant": 0.0}
@@ -39,7 +39,7 @@ def nutation_rad(per_pulse_rad, phase_rad, count):
 
 
 def against_paper(least_deg, most_deg, ends_deg, envelope_deg):
-    """What the comparison with the paper's range and end comes to; the nutation of a triaxial body swings at the end too."""
+    """Verdict on the paper's range and end; the nutation of a triaxial body swings at the end too."""
     has_range = abs(least_deg - LEAST_DEG) <= READ_DEG and abs(most_deg - MOST_DEG) <= READ_DEG
     has_end = ends_deg[0] - READ_DEG <= END_DEG <= ends_deg[1] + READ_DEG
     if has_range:

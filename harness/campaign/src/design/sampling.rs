@@ -11,7 +11,7 @@ const MAX_SOBOL_RUNS: u64 = 1 << 16;
 /// Strata of a Latin hypercube, of all variables together: every process holds them in 4 bytes each.
 const MAX_STRATA: u64 = 1 << 25;
 
-/// How the values of runs are chosen.
+/// Sampling of the values of runs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Sampling {
     /// Independent draws.

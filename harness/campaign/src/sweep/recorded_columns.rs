@@ -14,7 +14,7 @@ use crate::run::{Settings, Simulated};
 pub(super) struct RecordedColumns {
     /// Recorded variables, those of histories first.
     pub positions: Vec<usize>,
-    /// How many of them histories have.
+    /// Number of them in histories.
     pub histories: usize,
     /// Columns of final values.
     pub finals: Vec<usize>,
@@ -80,7 +80,7 @@ impl RecordedColumns {
         finals.chain(extremes).collect()
     }
 
-    /// How many numbers are kept of a run.
+    /// Number of values recorded of a run.
     pub(super) fn count(&self) -> usize {
         self.finals.len() + 4 * self.extremes.len()
     }

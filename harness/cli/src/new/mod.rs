@@ -45,15 +45,15 @@ pub(crate) enum NewKind {
     Asteroid,
     /// A telescope behind a sunshield near the Sun-Earth point L2; with telescope-mission.toml, a mission of it
     Telescope,
-    /// What is simulated, when, with which values, and what is recorded; for `run`, `check`, `pack`
+    /// Simulation of an FMU: its times, values and recorded variables; for `run`, `check`, `pack`
     Mission,
     /// Commands, positions of panels and events over time, for `pack --timeline`
     Timeline,
-    /// How far arrays and attitude may go to hold a mission's momentum, for `plan`; with plan-mission.toml, the mission
+    /// Ranges of arrays and attitude that hold a mission's momentum, for `plan`; with plan-mission.toml, the mission
     Plan,
     /// The place and date at which a leg begins, and the encounter that it leads to, for `plan` of a leg; with leg-mission.toml, the mission
     Leg,
-    /// What varies over many runs, and what is kept of each, for `sweep`; with mission.toml, the mission
+    /// Variables that vary over many runs, and the values recorded of each, for `sweep`; with mission.toml, the mission
     Campaign,
 }
 

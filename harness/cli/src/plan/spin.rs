@@ -9,7 +9,7 @@ use planner::spin::{ALLOWED_DATE, RightAscensionDeclination, Timing, TurnRequest
 
 use crate::patience::Patience;
 
-/// What pulses are timed by.
+/// Reference by which pulses are timed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum TimingOption {
     /// Fixed intervals of the assumed spin period
@@ -73,16 +73,16 @@ pub(crate) struct SpinPlan {
     /// Turn to here instead: right ascension and declination (EME2000), 83.63deg,22.01deg; the Sun by --date or --sun
     #[arg(long, value_name = "RA,DEC", value_parser = direction, conflicts_with_all = ["angle_deg", "direction_deg", "sun_angle_deg"])]
     pub target: Option<RightAscensionDeclination>,
-    /// Where the spin axis stands at the start; otherwise by start.q in the spacecraft's file
+    /// Direction of the spin axis at the start; otherwise by start.q in the spacecraft's file
     #[arg(long, value_name = "RA,DEC", value_parser = direction)]
     pub from: Option<RightAscensionDeclination>,
     /// Date of the turn, which gives Sun and Earth as seen from the Sun-Earth L1 point: '2026-11-22T12:00:00 UTC'
     #[arg(long, value_name = "DATE", value_parser = date, conflicts_with = "sun_angle_deg")]
     pub date: Option<f64>,
-    /// Where the Sun stands, in place of --date
+    /// Direction of the Sun, in place of --date
     #[arg(long, value_name = "RA,DEC", value_parser = direction, conflicts_with = "sun_angle_deg")]
     pub sun: Option<RightAscensionDeclination>,
-    /// Where the Earth stands, in place of --date: off L1 it is up to 15 deg elsewhere
+    /// Direction of the Earth, in place of --date: off L1 it is up to 15 deg elsewhere
     #[arg(long, value_name = "RA,DEC", value_parser = direction)]
     pub earth: Option<RightAscensionDeclination>,
     /// Trains that move by whole pulses may miss the angle by this much, in per cent
@@ -103,7 +103,7 @@ pub(crate) struct SpinPlan {
     /// Thruster or group, by its name in the spacecraft's file; otherwise the first that tilts the spin axis alone
     #[arg(long, value_name = "NAME")]
     pub thruster: Option<String>,
-    /// What pulses are timed by
+    /// Reference by which pulses are timed
     #[arg(long, value_enum, default_value_t = TimingOption::Sun)]
     pub timing: TimingOption,
     /// Angle from the spin axis to the Sun: sets the nutation that science bears; otherwise by --date or --sun

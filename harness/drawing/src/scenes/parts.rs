@@ -6,7 +6,7 @@ use crate::{Finish, Surface, Vector, unit};
 pub(crate) struct Axis {
     pub center_m: Vector,
     pub direction: Vector,
-    /// How far the line goes to either side.
+    /// Extent of the line to either side.
     pub half_length_m: f64,
 }
 

@@ -16,17 +16,17 @@ struct CampaignKeys makes #[derive(Clone, Debug)] pub struct CampaignValues {
     mission: Option<InputFile>,
     /// An FMU of FMI 2.0 co-simulation, instead of a mission.
     fmu: Option<ShippedFile>,
-    /// Where its runs begin, a number of s or with a unit; otherwise its default.
+    /// Start time of its runs, a number of s or with a unit; otherwise its default.
     start as start_s: Option<Duration>,
-    /// Where its runs end; otherwise its default.
+    /// Stop time of its runs; otherwise its default.
     stop as stop_s: Option<Duration>,
     /// Communication step; the mission's or the FMU's unless given.
     step as step_s: Option<Span>,
-    /// How many runs; grid, oneAtATime and file have a number of their own.
+    /// Number of runs; grid, oneAtATime and file have a number of their own.
     runs: Option<At<CountFromOne>>,
     /// Seed of the draws.
     seed: Count = 0,
-    /// How runs are spread over what varies; random unless given.
+    /// Distribution of the runs over the variables that vary; random unless given.
     sampling: SamplingWord => |_| SamplingWord::Random,
     /// The values of every run with sampling file: a CSV file whose columns are named as variables, as `--dry-run` prints it.
     file as table: Option<InputFile>,
@@ -34,7 +34,7 @@ struct CampaignKeys makes #[derive(Clone, Debug)] pub struct CampaignValues {
     correlation as correlations: Vec<At<Correlation>> => |_| Vec::new(),
     /// Parameters, inputs and start values that vary, by names in quotes; vectors are named by element.
     vary: Named<VaryKeys> => |_| Vec::new(),
-    /// What is kept of each run; the final values of all outputs unless given.
+    /// Values recorded of each run; the final values of all outputs unless given.
     keep: Option<KeepKeys>,
 } rules {
     AnyOf mission fmu: "no key `mission`", "mission = \"mission.toml\", or fmu = \"My.fmu\" with stop and step";
@@ -43,7 +43,7 @@ struct CampaignKeys makes #[derive(Clone, Debug)] pub struct CampaignValues {
     Excludes stop => mission: "`stop` beside `mission`", "the mission's own";
 }
 
-/// Where the values of a variable come from: one of these, numbers in SI or with a unit, dates for epochs.
+/// Distribution of a variable: one of these, numbers in SI or with a unit, dates for epochs.
 struct VaryKeys makes #[derive(Clone, Debug)] pub struct Vary {
     /// Mean and standard deviation.
     normal: Option<At<Settings>>,
@@ -59,7 +59,7 @@ struct VaryKeys makes #[derive(Clone, Debug)] pub struct Vary {
     steps: Option<At<Settings>>,
 }
 
-/// What is kept of each run: names of variables, vectors, patterns with * for outputs.
+/// Values recorded of each run: names of variables, vectors, patterns with * for outputs.
 struct KeepKeys makes #[derive(Clone, Debug)] pub struct Keep {
     /// Values at the end, as NAME.final; of all outputs without `[keep]`.
     r#final as finals: Vec<At<String>> => |_| Vec::new(),
@@ -78,7 +78,7 @@ struct KeepKeys makes #[derive(Clone, Debug)] pub struct Keep {
 }
 }
 
-/// How the values of runs are chosen.
+/// Sampling of the values of runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub enum SamplingWord {

@@ -49,7 +49,7 @@ struct ArriveKeys makes #[derive(Clone, Debug)] pub struct Arrival {
     bR as b_r_m: Option<At<Length>>,
     /// Whole revolutions about the Sun.
     revolutions: At<Revolutions> = 0,
-    /// Which of the two arcs with so many revolutions, from one on.
+    /// Number of the arc, 1 or 2, from one revolution on.
     branch: Option<ArcBranch>,
 }
 }

@@ -62,7 +62,7 @@ impl MissionValues {
         if let Instant::Epoch(epoch_s) = start.it { Some(start.with(epoch_s)) } else { None }
     }
 
-    /// When it begins, in s.
+    /// Start, in s.
     pub fn start_s(&self) -> Option<f64> {
         match self.start.as_ref()?.it {
             Instant::Epoch(_) => Some(0.0),
@@ -70,7 +70,7 @@ impl MissionValues {
         }
     }
 
-    /// When it ends, in s.
+    /// Stop, in s.
     pub fn stop_s(&self) -> Option<f64> {
         self.stop.as_ref()?.it.time_s(self.epoch_s().map(|epoch| epoch.it))
     }

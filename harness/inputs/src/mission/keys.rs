@@ -21,10 +21,10 @@ struct MissionKeys makes #[derive(Clone, Debug)] pub struct MissionValues {
     timeline: Option<InputFile>,
     /// Positions over time, a TOML file, for models that take one.
     ephemeris: Option<InputFile>,
-    /// When the flight begins: a date that ends in UTC, Z, TDB, TT or TAI, or a Julian date ("2011-04-06T00:00:00 UTC"), which is then simulation time 0; or
+    /// Start of the flight: a date that ends in UTC, Z, TDB, TT or TAI, or a Julian date ("2011-04-06T00:00:00 UTC"), which is then simulation time 0; or
     /// simulation time, a number of s or with a unit ("10 d").
     start: Option<At<Moment>>,
-    /// When it ends: a date, if `start` is one; or simulation time.
+    /// Stop of the flight: a date, if `start` is one; or simulation time.
     stop: Option<At<Moment>>,
     /// Communication step, a number of s or with a unit ("60 s").
     step as step_s: Option<Span>,
@@ -56,7 +56,7 @@ struct MissionKeys makes #[derive(Clone, Debug)] pub struct MissionValues {
 struct PlotKeys makes #[derive(Clone, Debug)] pub struct Plot {
     /// The SVG file.
     file: OutputPath,
-    /// What it shows, named as in `record`; otherwise everything recorded.
+    /// Variables that it shows, named as in `record`; otherwise everything recorded.
     names: Option<Vec<At<String>>>,
 }
 

@@ -33,7 +33,7 @@ impl physics::toml::Written for CommandKey {
     }
 }
 
-/// As TOML has it in one line.
+/// Writes a value as TOML in one line.
 fn inline(written: &Written) -> String {
     match written {
         Written::Integer(_) | Written::Boolean(_) => written.to_string(),

@@ -17,14 +17,14 @@ use crate::reading::{
 };
 
 tables! {
-/// What is planned: a mission, how far arrays and attitude may go in its free windows (in an orbit phase: the Sun's place in its
+/// Task of a plan: a mission, the ranges of arrays and attitude in its free windows (in an orbit phase: the Sun's place in its
 /// downlinks), and what its momentum is kept below. Times,
 /// angles and momenta are SI numbers or strings with a unit.
 struct PlanKeys makes #[derive(Clone, Debug)] pub struct PlanValues {
     /// The mission of MomentumPlant in guided flight, with spacecraft or model and `momentum.strategy` dumpsOnly, in cruise or in an orbit
     /// phase. The path is relative to this file.
     mission: At<InputFile>,
-    /// How long from its start the mission stays as it is, arrays included.
+    /// Time from its start for which the mission stays as it is, arrays included.
     freeze as freeze_s: At<SpanFromZero> = "14 d",
     /// Distance of the points at which momentum and path are looked at, by which the partials of a flyby are exact; "1 h" unless given,
     /// "10 min" in an orbit phase.
@@ -84,9 +84,9 @@ struct SunOffsetKeys makes #[derive(Clone, Debug)] pub struct SunOffset or Defau
 
 /// Largest tilt, either way.
 struct TiltKeys makes #[derive(Clone, Debug)] pub struct Tilt or Default {
-    /// Of the Sun's azimuth, from -Y toward +X, within the keep-in zone.
+    /// Largest tilt of the Sun's azimuth, from -Y toward +X, within the keep-in zone.
     azimuth as azimuth_rad: Option<QuarterTurn>,
-    /// Of the Sun's elevation, positive toward -Z, within the keep-in zone.
+    /// Largest tilt of the Sun's elevation, positive toward -Z, within the keep-in zone.
     elevation as elevation_rad: Option<QuarterTurn>,
 }
 
@@ -100,7 +100,7 @@ struct ContactKeys makes #[derive(Clone, Debug)] pub struct Contact {
 
 /// An activity that might be added.
 struct ActivityKeys called "activity" makes #[derive(Clone, Debug)] pub struct Activity {
-    /// What it is called.
+    /// Name of the activity.
     name: String,
     /// When it begins: a date or simulation time.
     start: Moment,
@@ -110,7 +110,7 @@ struct ActivityKeys called "activity" makes #[derive(Clone, Debug)] pub struct A
     command: CommandKey,
 }
 
-/// Where the mission is to pass a planet: `bT` and `bR`, or `altitude` and `angle`, where B is that of the
+/// Aim at a planet: `bT` and `bR`, or `altitude` and `angle`, where B is that of the
 /// hyperbola that osculates `encounter.leadTime` before the closest approach. Without these nothing is planned.
 struct FlybyKeys makes #[derive(Clone, Debug)] pub struct Flyby {
     /// The planet: the mission's `encounter.body`.
@@ -123,7 +123,7 @@ struct FlybyKeys makes #[derive(Clone, Debug)] pub struct Flyby {
     altitude as altitude_m: Option<At<Length>>,
     /// Angle of B from T toward R.
     angle as angle_rad: Option<At<Angle>>,
-    /// When the spacecraft arrives: a date or simulation time; with a fixed arrival.
+    /// Time of arrival: a date or simulation time; with a fixed arrival.
     time: Option<At<Moment>>,
     /// Whether the time of arrival is a goal too; free unless given.
     arrival: Arrives => |_| Arrives::Free,
@@ -136,7 +136,7 @@ struct FlybyKeys makes #[derive(Clone, Debug)] pub struct Flyby {
 
 /// State from orbit determination, EME2000 from `orbit.center`.
 struct UpdateKeys makes #[derive(Clone, Debug)] pub struct Update {
-    /// When it holds: a date or simulation time; the mission of the plan starts there, with the momentum that its flight has then.
+    /// Time of the state: a date or simulation time; the mission of the plan starts there, with the momentum that its flight has then.
     at: At<Moment>,
     /// Position in m; that of the mission unless given.
     position as position_m: Option<Triple>,
@@ -152,11 +152,11 @@ struct CompareKeys makes #[derive(Clone, Debug)] pub struct Compare {
     directionError as direction_error_rad: QuarterTurn = "0.2 deg",
     /// Standard deviation of their size, as a share.
     magnitudeError as magnitude_error: Share = 0.001,
-    /// When approach manoeuvres are, before the arrival.
+    /// Times of approach manoeuvres, before the arrival.
     approach as approach_s: ApproachKey = ["-42 d"],
-    /// When the departure manoeuvre is, behind the arrival.
+    /// Time of the departure manoeuvre, after the arrival.
     departure as departure_s: SpanFromHour = "30 d",
-    /// When that leads back to where the flight through the aim is: a date or simulation time.
+    /// Time at which that manoeuvre leads back to the flight through the aim: a date or simulation time.
     next: At<Moment>,
 }
 

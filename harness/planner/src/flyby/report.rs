@@ -64,7 +64,7 @@ pub struct FlybyReport {
     pub radius_m: f64,
     /// Its gravitational parameter, in m3/s2.
     pub gm_m3_s2: f64,
-    /// How long before closest approach the hyperbola osculates that B is of, in s.
+    /// Time before closest approach at which the hyperbola of B osculates, in s.
     pub lead_s: f64,
     /// Whether the time of arrival is a goal.
     pub is_timed: bool,

@@ -40,7 +40,7 @@ pub(crate) const ALL: [Control; CONTROLS] = [
     Control::AlternateElevation,
 ];
 
-/// How arrays and attitude stand in a window.
+/// Settings of arrays and attitude in a window.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Controls(pub [f64; CONTROLS]);
 

@@ -10,9 +10,9 @@ use super::controls::CONTROLS;
 /// Force and torque in one attitude at a time, with their derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearLoad {
-    /// In N m.
+    /// Torque, in N m.
     pub torque: Vector3<f64>,
-    /// By offset, windmill, azimuth, elevation, in N m/rad.
+    /// Derivatives of the torque by offset, windmill, azimuth, elevation, in N m/rad.
     pub by_angle: [Vector3<f64>; 4],
     /// Force with it, EME2000, in N.
     pub force_n: Vector3<f64>,
@@ -25,9 +25,9 @@ pub struct LinearLoad {
 /// Torque at a time, in N m, with its derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearTorque {
-    /// In the attitude that is not alternate.
+    /// Load in the normal attitude.
     pub normal: LinearLoad,
-    /// With the Sun where the alternate attitude has it, before its half turn; `None` where that is no other place.
+    /// Load with the alternate attitude's Sun direction, before its half turn; `None` where it is the normal one.
     pub alternate: Option<LinearLoad>,
     /// Takes a vector to that turned by 180 deg about the Sun line.
     pub half_turn: Matrix3<f64>,

@@ -16,7 +16,7 @@ use crate::text_table::csv;
 /// An event of the mission or of the plan.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlanEvent {
-    /// In s of the flight.
+    /// Time in s of the flight.
     pub at_s: f64,
     /// dump, maneuver, centerOfMass.
     pub kinds: Vec<&'static str>,
@@ -32,9 +32,9 @@ pub struct Price {
     /// Removed from the plan, or added to it.
     #[serde(skip)]
     pub removed: bool,
-    /// In s of the flight.
+    /// Time in s of the flight.
     pub start_s: f64,
-    /// In s of the flight.
+    /// Time in s of the flight.
     pub stop_s: f64,
     /// Momentum that its span gathers more, the rest being as planned, EME2000, in N m s.
     pub gathered_n_m_s: [f64; 3],

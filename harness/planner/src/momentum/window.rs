@@ -13,7 +13,7 @@ use super::{
 /// Kind of a window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WindowKind {
-    /// As the mission has it, arrays included.
+    /// Settings of the mission, arrays included.
     Frozen,
     /// A command of the mission that stays.
     Fixed,
@@ -144,7 +144,7 @@ impl Window {
         (self.controls.get(Control::Alternate) * by_share, by_share)
     }
 
-    /// When the alternate attitude begins and ends: in the middle of every piece of a day at most, so that the drift of the Sun's
+    /// Returns the spans of the alternate attitude: in the middle of every piece of a day at most, so that the drift of the Sun's
     /// direction within it cancels to the first order (+--+ in halves of 6 h for a share of one half).
     pub fn alternate_spans_s(&self) -> Vec<[f64; 2]> {
         let share = self.controls.get(Control::Alternate);

@@ -306,7 +306,7 @@ impl Layout {
     }
 }
 
-/// As far either way.
+/// Range of the same size to either side of zero.
 fn either_way(most: f64) -> [f64; 2] {
     [-most, most]
 }

@@ -182,7 +182,7 @@ impl Actuator {
 }
 
 impl Task {
-    /// By the request and the spacecraft.
+    /// Makes the task of a request and a spacecraft.
     pub fn new(request: &TurnRequest, spinner: &Spinner) -> Result<Self, PlanError> {
         let angle_deg = request.angle_deg;
         let allowed = format!("above 0 to {MAX_ANGLE_DEG} deg");

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::momentum::{plan::MomentumPlan, windows::WindowKind};
 
-/// How long a request of a dump is held, in s: seen by steps of a minute.
+/// Time for which a request of a dump is held, in s: seen by steps of a minute.
 const HELD_S: f64 = 60.0;
 
 /// Groups of columns that change together, with their names but for those of panels.

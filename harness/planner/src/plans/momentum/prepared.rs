@@ -93,7 +93,7 @@ impl Prepared {
     }
 }
 
-/// When an activity begins and ends, in s of the mission.
+/// Start and stop of an activity, in s of the mission.
 pub(super) fn span_s(
     file: &PlanFile,
     at: &At<Activity>,

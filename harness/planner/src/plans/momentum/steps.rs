@@ -18,14 +18,14 @@ const MINUTE_S: f64 = 60.0;
 /// Share of a minute within which a time is a whole one.
 const SAME_MINUTE: f64 = 1e-5;
 
-/// In deg as it is written.
+/// Angle in deg as it is written.
 pub(super) fn shown_deg(angle_rad: f64) -> f64 {
     let deg = (angle_rad.to_degrees() * PARTS_OF_DEG).round() / PARTS_OF_DEG;
     // No minus before zero.
     deg + 0.0
 }
 
-/// In N m s as it is written.
+/// Momentum in N m s as it is written.
 pub(super) fn shown_n_m_s(momentum_n_m_s: &Vector3<f64>) -> [f64; 3] {
     momentum_n_m_s.map(|it| (it * PARTS_OF_N_M_S).round() / PARTS_OF_N_M_S + 0.0).into()
 }
@@ -60,7 +60,7 @@ pub(super) fn stretches(window: &Window) -> Vec<Stretch> {
     all
 }
 
-/// How the arrays stand from a time on.
+/// Settings of the arrays from a time on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ArrayStep {
     pub at_s: f64,
