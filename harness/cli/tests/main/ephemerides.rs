@@ -87,17 +87,8 @@ fn a_flight_is_fitted_to_the_tolerance_and_simulated_by_another_fmu() {
     let path = |name: &str| scratch.path().join(name);
     let (fitted, file) = (path("Fitted.fmu"), path("flown.toml"));
     let pack = ["pack", "--template", shown(&plant), "--model", "MomentumPlant", "--output"];
-    let make = [
-        "ephemeris",
-        "--template",
-        shown(&plant),
-        "--start",
-        START,
-        "--stop",
-        STOP,
-        "--output",
-        shown(&file),
-    ];
+    let span = ["ephemeris", "--template", shown(&plant), "--start", START, "--stop", STOP, "--output"];
+    let make = [&span[..], &[shown(&file)]].concat();
     let text = run(
         &[&make[..], &["--tolerance", "500", "--coarse", "--bodies", "sun,earth,spacecraft"]].concat(),
         0,
@@ -112,18 +103,7 @@ fn a_flight_is_fitted_to_the_tolerance_and_simulated_by_another_fmu() {
     let impossible = run(&[&make[..], &["--tolerance", "1e-9", "--segment", "5d"]].concat(), 2);
     assert!(impossible.contains("--tolerance: no fit of sun up to degree 16 keeps"), "{impossible}");
     // Any planet, the Moon from kernels alone.
-    let make = [
-        "ephemeris",
-        "--template",
-        shown(&plant),
-        "--start",
-        START,
-        "--stop",
-        STOP,
-        "--output",
-        "-",
-        "--bodies",
-    ];
+    let make = [&span[..], &["-", "--bodies"]].concat();
     let planets = run(&[&make[..], &["venus,jupiter", "--tolerance", "500"]].concat(), 0);
     placed_by_theory(&planets, &[Body::Venus, Body::Jupiter], 600.0);
     let moon = run(&[&make[..], &["moon"]].concat(), 2);
