@@ -57,7 +57,8 @@ def build(inner, outer):
         connections=[],
         variableMappings=mappings,
     )
-    with tempfile.TemporaryDirectory() as scratch:
+    # FMPy renames the archive: both stand on one file system.
+    with tempfile.TemporaryDirectory(dir=outer.parent) as scratch:
         create_container_fmu(configuration, Path(scratch), outer)
 
 
