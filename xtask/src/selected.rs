@@ -9,8 +9,8 @@ use crate::build::TESTS;
 use crate::shell::{Outcome, cargo, command, output, run};
 use crate::{python, test};
 
-/// Crates whose tests need nothing that is built or packed.
-const FREE_STANDING: &[&str] = &["fmu-src", "modelDescription"];
+/// Folders whose tests need nothing that is built or packed.
+const FREE_STANDING: &[&str] = &["fmu-src", "modelDescription", "tests/models", "tests/physics"];
 
 /// With this set, tests write what they compare with.
 const BLESS: (&str, &str) = ("HELIOTORQUE_BLESS", "1");
@@ -25,9 +25,10 @@ const RECORDED: &[(&str, Option<&str>, Option<&str>)] = &[
     ("guide", None, Some("prints_what or follow_the_schemas or written")),
 ];
 
-/// A program with tests, and the folder of its crate.
+/// A program with tests, its source file and the folder of its crate.
 struct TestProgram {
     path: PathBuf,
+    source: PathBuf,
     crate_folder: PathBuf,
 }
 
@@ -59,7 +60,7 @@ fn run_selected(
     more: &[(&str, &str)],
 ) -> Outcome {
     let is_free_standing = |program: &TestProgram| {
-        FREE_STANDING.iter().any(|folder| program.crate_folder.starts_with(crate::shell::root().join(folder)))
+        FREE_STANDING.iter().any(|folder| program.source.starts_with(crate::shell::root().join(folder)))
     };
     let environment = if in_python.is_none() && programs.iter().all(is_free_standing) {
         Vec::new()
@@ -100,8 +101,9 @@ fn test_program(line: &str) -> Option<TestProgram> {
     let message: Value = serde_json::from_str(line).ok()?;
     let path = |value: &Value| value.as_str().map(PathBuf::from);
     let executable = path(&message["executable"]).filter(|_| message["profile"]["test"] == true)?;
+    let source = path(&message["target"]["src_path"])?;
     let crate_folder = path(&message["manifest_path"])?.parent()?.to_owned();
-    Some(TestProgram { path: executable, crate_folder })
+    Some(TestProgram { path: executable, source, crate_folder })
 }
 
 /// Whether a test in Python has `name` in its name.
@@ -127,11 +129,12 @@ mod tests {
     fn programs_with_tests_are_reported_from_others() {
         let message = |test: bool, executable: &str| {
             format!(
-                r#"{{"reason":"compiler-artifact","package_id":"a#0.1.0","manifest_path":"/w/a/Cargo.toml","target":{{"kind":["lib"],"name":"a","doctest":true,"test":true}},"profile":{{"opt_level":"3","debug_assertions":false,"test":{test}}},"filenames":[],"executable":{executable},"fresh":true}}"#
+                r#"{{"reason":"compiler-artifact","package_id":"a#0.1.0","manifest_path":"/w/a/Cargo.toml","target":{{"kind":["lib"],"name":"a","src_path":"/w/a/src/lib.rs","doctest":true,"test":true}},"profile":{{"opt_level":"3","debug_assertions":false,"test":{test}}},"filenames":[],"executable":{executable},"fresh":true}}"#
             )
         };
         let program = test_program(&message(true, "\"/w/target/a-1\"")).unwrap();
         assert_eq!((program.path, program.crate_folder), ("/w/target/a-1".into(), "/w/a".into()));
+        assert_eq!(program.source, PathBuf::from("/w/a/src/lib.rs"));
         assert!(test_program(&message(false, "\"/w/target/a\"")).is_none());
         assert!(test_program(&message(true, "null")).is_none());
         assert!(test_program(r#"{"reason":"build-finished","success":true}"#).is_none());

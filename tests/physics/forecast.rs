@@ -1,4 +1,4 @@
-//! What is forecast where a downlink begins is what is then simulated, over events of the schedule too.
+//! Forecasts where a downlink begins are what is then simulated, over events of the schedule too.
 
 use std::cell::RefCell;
 
@@ -21,7 +21,7 @@ const HOUR_S: f64 = 3600.0;
 /// Times ahead in s, and the momentum there, EME2000, in N m s.
 type History = Vec<(f64, Vector3<f64>)>;
 
-/// What is forecast at the first downlink for the times behind its begin, with these events, and what is then simulated there.
+/// The forecast at the first downlink for the times behind its begin, with these events, and what is then simulated there.
 fn forecast_and_flight(events: &[TimelineEvent], behind_s: &[f64]) -> [History; 2] {
     let orbit = orbit();
     let AttitudeSource::Guided(law) = guided(&orbit) else { panic!("guided") };

@@ -1,4 +1,4 @@
-//! What holds for the physics as a whole.
+//! Tests of the physics as a whole, from outside.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "what a test expects may come from the system's functions")]
 

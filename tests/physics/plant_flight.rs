@@ -297,7 +297,7 @@ fn a_given_sun_is_where_it_was_given() {
     assert!(evaluation.loads[Effect::Solar].force_body_n.norm() < 2.0 * 5.4 * pressure_pa);
 }
 
-/// What a planner asks changes nothing in the flight, whatever it assumes of the time ahead.
+/// Questions of a planner change nothing in the flight, whatever it assumes of the time ahead.
 #[test]
 fn a_clone_predicts_the_span_ahead() {
     let orbit = orbit();

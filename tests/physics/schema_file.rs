@@ -24,7 +24,7 @@ fn the_schema_of_the_spinner_is_in_step() {
 }
 
 fn assert_in_step(file: &str, expected: &str) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../resources").join(file);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fmu-src/resources").join(file);
     if std::env::var_os("HELIOTORQUE_BLESS").is_some() {
         fs::write(&path, expected).unwrap();
     }

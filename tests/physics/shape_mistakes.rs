@@ -1,4 +1,4 @@
-//! What is written wrongly of a shape is refused with its line, key, what was found and what is allowed.
+//! Mistakes in a shape are refused with their line, key, what was found and what is allowed.
 
 use physics::spacecraft::Spacecraft;
 

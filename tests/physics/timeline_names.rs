@@ -15,7 +15,7 @@ use physics::guidance::timeline::Timeline;
 use physics::spacecraft::{MESSENGER_TOML, Spacecraft};
 
 fn variables(file: &str) -> String {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/src/guidance/variables");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fmu-src/models/src/guidance/variables");
     fs::read_to_string(folder.join(file)).unwrap()
 }
 
@@ -46,7 +46,7 @@ fn inputs(source: &str, group: &str) -> BTreeSet<String> {
     fields.map(name).collect()
 }
 
-/// What is allowed where a file has a word or key that nobody knows.
+/// The words allowed where a file has a word or key that nobody knows.
 fn allowed(text: &str) -> BTreeSet<String> {
     let error = Timeline::from_toml("t.toml", text, &messenger()).unwrap_err();
     let unknown = |found: &str| found.contains("unknown") && found.contains("zzzzzzzzzzzzzzzz");

@@ -25,7 +25,7 @@ fn shown_m2(plates: &[Plate], toward: &Vector3<f64>) -> f64 {
     plates.iter().map(|plate| plate.area_m2 * plate.normal.dot(toward).max(0.0)).sum()
 }
 
-/// Of light of a pressure of 1 Pa, about the origin.
+/// Force and torque of light of a pressure of 1 Pa, about the origin.
 fn load(spacecraft: &Spacecraft, source_body: Vector3<f64>) -> ForceTorque<f64> {
     let beam = Beam { source_body, pressure_pa: 1.0 };
     SolarModel::new(spacecraft, None).unwrap().load(&beam, |_, _| None, &Vector3::zeros())

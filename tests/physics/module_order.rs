@@ -31,7 +31,7 @@ const ORDER: &[&str] = &[
 /// Files that may use one another in a circle: none.
 const EXCEPTIONS: &[&str] = &[];
 
-/// Where a file stands: `["spin", "plant"]` for `spin/plant/mod.rs` or `spin/plant.rs`.
+/// The place of a file: `["spin", "plant"]` for `spin/plant/mod.rs` or `spin/plant.rs`.
 type Module = Vec<String>;
 
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
@@ -47,7 +47,7 @@ fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
 
 /// Every file of the crate but its tests, with its code: no comments, no unit tests.
 fn modules() -> BTreeMap<Module, String> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fmu-src/physics/src");
     let mut files = Vec::new();
     sources(&root, &mut files);
     let mut found = BTreeMap::new();
@@ -142,7 +142,7 @@ fn target(path: &str, from: &Module, known: &BTreeMap<Module, String>) -> Option
     (module != *from && known.contains_key(&module)).then_some(module)
 }
 
-/// Which files each file uses.
+/// The files that each file uses.
 fn uses() -> BTreeMap<Module, BTreeSet<Module>> {
     let known = modules();
     let children = |of: &Module| -> BTreeSet<&str> {
