@@ -114,7 +114,8 @@ fn guide() -> Outcome {
 
 /// Tests of the physics and of the models in their long extent.
 fn models() -> Outcome {
-    run(cargo(&format!("test {TESTS} --lib --test models")).env(VARIABLE, "models"))
+    let programs = "--lib --test models --test physics --test physics-units";
+    run(cargo(&format!("test {TESTS} {programs}")).env(VARIABLE, "models"))
 }
 
 /// Tests of the shared library and of the command line in their long extent, and the C client.
