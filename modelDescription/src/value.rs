@@ -179,7 +179,7 @@ pub fn read(description: &Description, variable: &ScalarVariable, text: &str) ->
                 && is_bare() =>
         {
             let text = text.trim();
-            let found = format!("{text:?}, which is more than a turn without a unit");
+            let found = format!("{text}, which is more than a turn without a unit");
             Err(Misfit::new(found, format!("{text} deg or {text} rad")))
         }
         value => Ok(value),

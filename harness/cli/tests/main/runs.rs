@@ -264,7 +264,7 @@ fn an_angle_beyond_its_limits_is_reported_in_deg() {
         ("orbit.inclination=5", "5 rad; did you mean 5deg? Allowed: 0 to 180 deg (0 to 3.141593 rad)"),
         (
             "orbit.inclination=10",
-            "found \"10\", which is more than a turn without a unit, allowed: 10 deg or 10 rad",
+            "found 10, which is more than a turn without a unit, allowed: 10 deg or 10 rad",
         ),
         ("orbit.inclination=200deg", "found 200deg, allowed: 0 to 180 deg"),
         ("orbit.inclination=1e4rad", "found 1e4rad, allowed: 0 to 180 deg"),
