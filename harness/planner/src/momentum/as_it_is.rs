@@ -10,7 +10,7 @@ use super::{
     planned::{AGREED, Least, MomentumPlan, PlanTask},
     simulated::{SAME_S, SimulatedFlight},
     torque::SunlitSpacecraft,
-    windows::{Layout, Window, WindowKind},
+    windows::{Layout, Span, Window, WindowKind},
 };
 
 /// Arrays and places that differ by less are one, in rad: timelines have a ten-thousandth of a degree.
@@ -51,14 +51,19 @@ pub(super) fn may_stay(layout: &Layout, windows: &[Window]) -> bool {
     before.is_some_and(|before| before.into_iter().zip(bounds).all(|(rad, bounds)| is_within(rad, bounds)))
 }
 
-/// The mission's own windows; `None` where they are not known or break a bound of the plan.
+/// Layout of the spans that the mission holds fixed and of those between, in one piece each.
+fn undivided(layout: &Layout) -> Layout {
+    Layout { window_s: f64::MAX, ..layout.clone() }
+}
+
+/// The mission's own windows; `None` where they are not known.
 pub(super) fn own_windows(
     layout: &Layout,
     sunlit: &SunlitSpacecraft,
     simulated: &SimulatedFlight,
 ) -> Option<Vec<Window>> {
     layout.own.first()?;
-    let whole = Layout { window_s: f64::MAX, ..layout.clone() };
+    let whole = undivided(layout);
     let mut windows = Vec::new();
     for ([start_s, stop_s], kind, command) in whole.spans(simulated) {
         if kind == WindowKind::Frozen {
@@ -68,31 +73,40 @@ pub(super) fn own_windows(
         let mut cuts_s: Vec<f64> = layout.own.iter().map(|it| it.at_s).collect();
         cuts_s.retain(|at_s| *at_s > start_s + SAME_S && *at_s < stop_s - SAME_S);
         cuts_s.push(stop_s);
-        let (mut from_s, mut alternate_s) = (start_s, 0.0);
+        let mut from_s = start_s;
         for to_s in cuts_s {
             let own = mean(&layout.own, [from_s, to_s])?;
             let offset_rad = layout.offset_sign * own.get(Control::Offset);
             let step = OffsetStep { at_s: from_s, offset_rad };
             let mut window = whole.window([from_s, to_s], (kind, command), (sunlit, simulated), &[step]);
             window.controls = match kind {
+                WindowKind::Free if own.get(Control::Alternate) > 0.0 && !window.is_apart() => {
+                    own.alternate()
+                }
                 WindowKind::Free => own,
                 _ => Controls::default()
                     .with(Control::Offset, own.get(Control::Offset))
                     .with(Control::Windmill, own.get(Control::Windmill)),
             };
-            if !is_allowed(layout, &window, simulated) {
-                return None;
-            }
-            alternate_s += window.controls.get(Control::Alternate) * window.length_s();
             windows.push(window);
             from_s = to_s;
         }
-        let most = layout.control_bounds.alternate.min(1.0 - layout.contact_share);
-        if alternate_s > 0.0 && (most <= 0.0 || alternate_s > most * (stop_s - start_s) + HALF_CYCLE_S) {
-            return None;
-        }
     }
     Some(windows)
+}
+
+/// Whether the mission's own windows keep the bounds of the plan.
+pub(super) fn are_allowed(layout: &Layout, windows: &[Window], simulated: &SimulatedFlight) -> bool {
+    let mut moved = windows.iter().filter(|window| window.kind != WindowKind::Frozen);
+    let most = layout.control_bounds.alternate.min(1.0 - layout.contact_share);
+    let alternates = |([start_s, stop_s], ..): Span| {
+        let inside = windows.iter().filter(|window| (start_s..stop_s).contains(&window.start_s));
+        let alternate_s: f64 =
+            inside.map(|window| window.controls.get(Control::Alternate) * window.length_s()).sum();
+        alternate_s > 0.0 && (most <= 0.0 || alternate_s > most * (stop_s - start_s) + HALF_CYCLE_S)
+    };
+    moved.all(|window| is_allowed(layout, window, simulated))
+        && !undivided(layout).spans(simulated).into_iter().any(alternates)
 }
 
 /// Whether the controls of a window of the mission are a plan's: within its bounds, the corridor and the times without contact.

@@ -8,6 +8,7 @@ use nalgebra::{Vector2, Vector3};
 use rayon::prelude::*;
 
 use super::{
+    as_it_is::own_windows,
     controls::{Control, Controls},
     counted,
     formulation::{Formulation, Part},
@@ -126,7 +127,8 @@ pub fn reachable(
 ) -> Result<Reachable, PlanError> {
     let mut model = bare(task, sunlit, &simulated.thinned(REACH_ROWS_S))?;
     // The target itself is no limit here.
-    model.set_target(sunlit, task.target.map(|_| Target { tolerance: [None; 3] }));
+    let free = task.target.map(|_| Target { tolerance: [None; 3] });
+    model.set_target(sunlit, free, own_windows(&task.layout, sunlit, simulated));
     simulates.progress("reach");
     let Some(encountered) = &simulated.encountered else { return Ok(Reachable::default()) };
     let single = counted::single(&model);
@@ -178,7 +180,7 @@ pub fn meets_target(
     simulates: &mut dyn Simulates,
 ) -> Result<bool, PlanError> {
     let mut model = bare(task, sunlit, simulated)?;
-    model.set_target(sunlit, task.target);
+    model.set_target(sunlit, task.target, own_windows(&task.layout, sunlit, simulated));
     let single = counted::single(&model);
     refine(&mut model, sunlit, &single, (Goal::LeastExcess, WHOLE), simulates)
 }

@@ -96,8 +96,14 @@ impl Model {
         model
     }
 
-    /// With a target of the plan, where the flight had an encounter.
-    pub(super) fn set_target(&mut self, sunlit: &SunlitSpacecraft, target: Option<Target>) {
+    /// With a target of the plan, where the flight had an encounter; `own` is that flight in windows of the mission's own controls, where
+    /// they are known.
+    pub(super) fn set_target(
+        &mut self,
+        sunlit: &SunlitSpacecraft,
+        target: Option<Target>,
+        own: Option<Vec<Window>>,
+    ) {
         let encountered = self.simulated.encountered.clone();
         self.targeting = target.zip(encountered).map(|(target, encountered)| Targeting {
             target,
@@ -108,10 +114,29 @@ impl Model {
         self.cells.clear();
         self.linearise(sunlit);
         // The flight of the mission had its own arrays and attitudes.
-        let simulated = self.recorded_moves(sunlit);
+        let simulated = match own {
+            Some(windows) => self.moves_by(sunlit, windows),
+            None => self.recorded_moves(sunlit),
+        };
         if let Some(targeting) = &mut self.targeting {
             targeting.simulated = simulated;
         }
+    }
+
+    /// Returns the change of the target by sunlight in the mission's own windows, where they are not frozen. Its controls jump between
+    /// rows and at them, and a row has one side of a jump alone: the mean of two rows would be off by half of the jump.
+    fn moves_by(&self, sunlit: &SunlitSpacecraft, windows: Vec<Window>) -> Vector3<f64> {
+        if self.targeting.is_none() {
+            return Vector3::zeros();
+        }
+        // The mission alternates in contacts too.
+        let windows = windows.into_iter();
+        let windows = windows.map(|it| Window { free_of_contact: vec![[it.start_s, it.stop_s]], ..it });
+        let mut own = Self::new(sunlit, self.simulated.clone(), windows.collect(), self.limit.clone());
+        own.targeting.clone_from(&self.targeting);
+        own.cells.clear();
+        own.linearise(sunlit);
+        own.moves()
     }
 
     /// Returns the change of the target by sunlight as it was recorded, where windows are not frozen.

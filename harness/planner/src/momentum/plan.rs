@@ -17,7 +17,7 @@ pub use super::planned::{
     body_momentum_n_m_s,
 };
 use super::{
-    as_it_is::{array_changes, is_better, may_stay, own_windows},
+    as_it_is::{are_allowed, array_changes, is_better, may_stay, own_windows},
     baseline::OffsetStep,
     controls::{ALL, Controls},
     counted::{self, Groups},
@@ -158,7 +158,7 @@ fn structure(
             // A target that is missed needs no dump.
             let mut alone = model.clone();
             if task.target.is_some() {
-                alone.set_target(sunlit, None);
+                alone.set_target(sunlit, None, None);
                 refine(&mut alone, sunlit, &single, (Goal::LeastExcess, WHOLE), simulates)?;
             }
             let excess_n_m_s = alone.excess_n_m_s().0;
@@ -249,7 +249,8 @@ fn as_it_is(
     if simulated.greatest(limit.size).0 > limit.kept_n_m_s() {
         return Ok(None);
     }
-    let Some(windows) = own_windows(&task.layout, sunlit, simulated) else { return Ok(None) };
+    let own = own_windows(&task.layout, sunlit, simulated);
+    let Some(windows) = own.filter(|own| are_allowed(&task.layout, own, simulated)) else { return Ok(None) };
     simulates.progress("flight");
     let flight = simulates.simulate(&windows, &[]).map_err(PlanError::Flight)?;
     let mut model = Model::new(sunlit, simulated.clone(), windows, limit.clone());
@@ -306,7 +307,7 @@ fn searched(
     simulates: &mut dyn Simulates,
 ) -> Result<MomentumPlan, PlanError> {
     let mut model = Model::new(sunlit, simulated.clone(), windows, task.limit.clone());
-    model.set_target(sunlit, task.target);
+    model.set_target(sunlit, task.target, own_windows(&task.layout, sunlit, simulated));
     let mut counts: Option<Structure> = None;
     let mut best: Option<MomentumPlan> = None;
     let (mut rounds, mut off_before_n_m_s) = (0, f64::INFINITY);

@@ -1,11 +1,14 @@
 //! Momentum of constant torques in closed form, what a flight corrects, what a covariance leaves.
 
 use approx::assert_relative_eq;
-use nalgebra::{Matrix3, Matrix4};
+use nalgebra::{Matrix3, Matrix4, Rotation3};
 
 use super::*;
 use crate::momentum::{
-    controls::Control,
+    as_it_is::own_windows,
+    controls::{Control, Controls},
+    encountered::Encountered,
+    in_force::ActiveControls,
     test_spacecraft::{DAY_S, simulated, sunlit, task},
     torque::Attitude,
     windows::ControlBounds,
@@ -93,4 +96,72 @@ fn a_covariance_leaves_three_sigma() {
     let force = columns.singular_values().max();
     let left = 5.0 - of_center.allowed_n_m_s().last().unwrap();
     assert_relative_eq!(left, 3e-3 * force * 10.0 * DAY_S, max_relative = 1e-6);
+}
+
+/// Effect of a change of velocity, in s, and a miss.
+const BY_VELOCITY_S: f64 = 2e6;
+const MISS_M: Vector3<f64> = Vector3::new(1e4, -2e3, 0.0);
+
+/// Miss of a flight of ten days whose mission gives the Sun another place or attitude at a time, with the Sun left where it was: by the
+/// mission's own windows, by the rows alone, and in closed form, for light is constant before and behind the jump.
+fn misses_without_jump_m(jump_s: f64, jump: &dyn Fn(Controls) -> Controls) -> [Vector3<f64>; 3] {
+    let (sunlit, mut task) = (sunlit([0.01, 0.02, 0.03]), task(5.0, ControlBounds::default()));
+    let mut simulated = simulated(&sunlit, 10, 0.4);
+    let still = task.layout.windows(&sunlit, &simulated).unwrap().0[0].controls;
+    let moved = jump(still);
+    let own = [(0.0, still), (jump_s, moved)];
+    task.layout.own = own.map(|(at_s, controls)| ActiveControls { at_s, controls }).to_vec();
+    let moved = if moved.get(Control::Alternate) > 0.0 { moved.alternate() } else { moved };
+    let first = simulated.rows[0].clone();
+    let before = sunlit.linearised(&first, Attitude::Downlink, &still);
+    let behind = sunlit.linearised(&first, Attitude::Downlink, &moved);
+    for row in &mut simulated.rows {
+        let controls = if row.time_s >= jump_s { &moved } else { &still };
+        row.inertial_from_body = sunlit.inertial_from_body(row, Attitude::Downlink, controls);
+        let sun_body = row.inertial_from_body.inverse() * row.to_sun_m.normalize();
+        let panels = sunlit.spacecraft.panels.iter().zip(&sunlit.panels);
+        let offset_rad = controls.get(Control::Offset);
+        row.panel_angles_rad = panels
+            .map(|(panel, (_, tilt_sign))| panel.angle_for_sun_offset(&sun_body, offset_rad, *tilt_sign))
+            .collect();
+        if controls.get(Control::Alternate) > 0.0 {
+            let half_turn = Rotation3::from_matrix_unchecked(behind.half_turn);
+            row.inertial_from_body = half_turn * row.inertial_from_body;
+        }
+    }
+    let by_velocity = Matrix3::identity() * BY_VELOCITY_S;
+    let by_velocity = [0.0, 10.0 * DAY_S].map(|at_s| (at_s, by_velocity)).to_vec();
+    simulated.encountered = Some(Encountered { miss: MISS_M, by_velocity });
+    let (windows, _) = task.layout.windows(&sunlit, &simulated).unwrap();
+    let mut model = Model::new(&sunlit, simulated.clone(), windows, task.limit.clone());
+    let target = Some(Target { tolerance: [None; 3] });
+    let own = own_windows(&task.layout, &sunlit, &simulated);
+    let [found, by_rows] = [own, None].map(|own| {
+        model.set_target(&sunlit, target, own);
+        model.miss().unwrap()
+    });
+    let more_n = before.normal.force_n - behind.mean_force_n(moved.get(Control::Alternate)).0;
+    let mass_kg = sunlit.current_mass_panels_stowed.mass_kg;
+    [found, by_rows, MISS_M + more_n * (BY_VELOCITY_S / mass_kg * (10.0 * DAY_S - jump_s))]
+}
+
+/// By rows alone, which have what follows a jump, it counts from the middle of its cell on, or of the one before.
+#[test]
+fn a_jump_of_the_mission_counts_from_its_time_on() {
+    let tilted = |still: Controls| still.with_place([0.1, -0.05]);
+    let turned = |still: Controls| {
+        let place = [(Control::AlternateAzimuth, -0.08), (Control::AlternateElevation, 0.1)];
+        let controls = still.with(Control::Alternate, 1.0);
+        place.into_iter().fold(controls, |all, (control, value)| all.with(control, value))
+    };
+    for (jump_s, early_s) in [(3.0 * DAY_S, 3600.0), (3.0 * DAY_S + 2000.0, -1600.0)] {
+        for jump in [&tilted as &dyn Fn(Controls) -> Controls, &turned] {
+            let [found, by_rows, expected] = misses_without_jump_m(jump_s, jump);
+            let early = (expected - MISS_M) * (early_s / (10.0 * DAY_S - jump_s));
+            println!("{:.3} {:.3} {:.3}", found.transpose(), by_rows.transpose(), expected.transpose());
+            assert_relative_eq!(found, expected, epsilon = 1e-3);
+            assert_relative_eq!(by_rows, expected + early, epsilon = 1e-3);
+            assert!(early.norm() > 30.0);
+        }
+    }
 }
