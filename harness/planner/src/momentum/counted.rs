@@ -46,7 +46,7 @@ pub(super) struct Groups {
 }
 
 /// Every window by itself, but that the arrays do not move where they are held.
-pub(super) fn single(model: &Model) -> Vec<usize> {
+pub(super) fn single(model: &Model<'_>) -> Vec<usize> {
     (0..model.windows.len()).collect()
 }
 
@@ -79,7 +79,7 @@ fn farthest(low: usize, high: usize, mut holds: impl FnMut(usize) -> bool) -> us
 }
 
 /// Ends of the parts between dumps, in steps; `None` where one step alone exceeds the limit.
-fn parts(model: &Model, guard: f64, scale: f64, most: usize) -> Option<Vec<usize>> {
+fn parts(model: &Model<'_>, guard: f64, scale: f64, most: usize) -> Option<Vec<usize>> {
     let leaders = single(model);
     let count = model.instants.len();
     let mut ends = Vec::new();
@@ -104,7 +104,7 @@ fn parts(model: &Model, guard: f64, scale: f64, most: usize) -> Option<Vec<usize
 }
 
 /// Dumps that no plan on the baseline can do without: each falls somewhere in the step that no relaxed programme reaches the end of.
-fn least_dumps(model: &Model) -> usize {
+fn least_dumps(model: &Model<'_>) -> usize {
     let leaders = single(model);
     let count = model.instants.len();
     let (mut from, mut dumps) = (0, 0);
@@ -123,7 +123,7 @@ fn least_dumps(model: &Model) -> usize {
 }
 
 /// The fewest dumps about the model's controls; `None` where dumps do not help.
-pub(super) fn fewest_dumps(model: &Model, guard: f64, progress: &mut dyn FnMut()) -> Option<Dumps> {
+pub(super) fn fewest_dumps(model: &Model<'_>, guard: f64, progress: &mut dyn FnMut()) -> Option<Dumps> {
     let ends = parts(model, guard, 1.0, usize::MAX - 1)?;
     let count = ends.len() - 1;
     progress();
@@ -146,7 +146,7 @@ pub(super) fn fewest_dumps(model: &Model, guard: f64, progress: &mut dyn FnMut()
 
 /// The end of the first step up to which no controls are found that keep the limit without a dump, in s; `None` where some do throughout.
 /// Other controls may keep it longer: the model is linear.
-pub(super) fn first_exceeded_s(model: &Model) -> Option<f64> {
+pub(super) fn first_exceeded_s(model: &Model<'_>) -> Option<f64> {
     let leaders = single(model);
     let count = model.instants.len();
     let kept = farthest(0, count, |to| {
@@ -158,7 +158,7 @@ pub(super) fn first_exceeded_s(model: &Model) -> Option<f64> {
 
 /// Searches the places of the changes.
 struct Search<'m> {
-    model: &'m Model,
+    model: &'m Model<'m>,
     /// Share of the limit that is left, and of every control's range about its present value.
     ranges: [f64; 2],
     /// Windows that begin a group in any case.
@@ -275,7 +275,7 @@ impl Search<'_> {
 /// The fewest changes of the arrays with which the limits are kept within a range about the model's controls, sought until a time;
 /// `None` where not even a change at every window keeps them.
 pub(super) fn fewest_changes(
-    model: &Model,
+    model: &Model<'_>,
     ranges: [f64; 2],
     until: Instant,
     progress: &mut dyn FnMut(),

@@ -42,7 +42,9 @@ impl Limit {
 
 /// A flight with windows, linear in their controls.
 #[derive(Clone, Debug)]
-pub(super) struct Model {
+pub(super) struct Model<'a> {
+    /// Spacecraft in sunlight.
+    pub sunlit: &'a SunlitSpacecraft,
     /// Geometry, with rows at all edges.
     pub simulated: SimulatedFlight,
     /// The windows.
@@ -67,10 +69,10 @@ pub(super) struct Model {
     pub departures_n_m: Vec<Vector3<f64>>,
 }
 
-impl Model {
+impl<'a> Model<'a> {
     /// About the controls of the windows.
     pub(super) fn new(
-        sunlit: &SunlitSpacecraft,
+        sunlit: &'a SunlitSpacecraft,
         simulated: SimulatedFlight,
         windows: Vec<Window>,
         limit: Limit,
@@ -78,6 +80,7 @@ impl Model {
         let edges_s: Vec<f64> = windows.iter().flat_map(Window::edges_s).collect();
         let simulated = simulated.with_rows_at(&edges_s);
         let mut model = Self {
+            sunlit,
             corrections: vec![Vector3::zeros(); simulated.rows.len().saturating_sub(1)],
             simulated,
             windows,
@@ -90,14 +93,14 @@ impl Model {
             between: Vec::new(),
             departures_n_m: Vec::new(),
         };
-        model.linearise(sunlit);
+        model.linearise();
         model.instants = instants(&model.cells, &model.windows, &model.simulated.rows);
         model.between = vec![0.0; model.instants.len()];
         model
     }
 
     /// With a target of the plan, where the flight had an encounter.
-    pub(super) fn set_target(&mut self, sunlit: &SunlitSpacecraft, target: Option<Target>) {
+    pub(super) fn set_target(&mut self, target: Option<Target>) {
         let encountered = self.simulated.encountered.clone();
         self.targeting = target.zip(encountered).map(|(target, encountered)| Targeting {
             target,
@@ -106,20 +109,20 @@ impl Model {
         });
         // From their own first time on.
         self.cells.clear();
-        self.linearise(sunlit);
+        self.linearise();
         // The flight of the mission had its own arrays and attitudes.
-        let simulated = self.recorded_moves(sunlit);
+        let simulated = self.recorded_moves();
         if let Some(targeting) = &mut self.targeting {
             targeting.simulated = simulated;
         }
     }
 
     /// Returns the change of the target by sunlight as it was recorded, where windows are not frozen.
-    fn recorded_moves(&self, sunlit: &SunlitSpacecraft) -> Vector3<f64> {
+    fn recorded_moves(&self) -> Vector3<f64> {
         let Some(targeting) = &self.targeting else { return Vector3::zeros() };
         let rows = self.simulated.rows.iter();
         let rates: Vec<_> = rows
-            .map(|row| targeting.by_impulse(sunlit, row) * sunlit.simulated(row).normal.force_n)
+            .map(|row| targeting.by_impulse(self.sunlit, row) * self.sunlit.simulated(row).normal.force_n)
             .collect();
         let cells = self.cells.iter().enumerate();
         let free = cells.filter(|(_, cell)| self.windows[cell.window].kind != WindowKind::Frozen);
@@ -141,8 +144,8 @@ impl Model {
     }
 
     /// Anew about the present controls.
-    pub(super) fn linearise(&mut self, sunlit: &SunlitSpacecraft) {
-        let rows = &self.simulated.rows;
+    pub(super) fn linearise(&mut self) {
+        let (sunlit, rows) = (self.sunlit, &self.simulated.rows);
         let mut cells = Vec::with_capacity(rows.len());
         let mut window = 0;
         // The end of a cell is the beginning of the next one in the same window.
@@ -183,7 +186,7 @@ impl Model {
     }
 
     /// Takes a share of what a flight of the present controls gained beyond the model, and how it missed the target.
-    pub(super) fn take(&mut self, sunlit: &SunlitSpacecraft, flight: &SimulatedFlight, share: f64) {
+    pub(super) fn take(&mut self, flight: &SimulatedFlight, share: f64) {
         let momentum = |row: &FlightRow| flight.momentum_n_m_s(row.time_s);
         let count_at = |time_s: f64| {
             let after = flight.rows.partition_point(|row| row.time_s <= time_s + SAME_S);
@@ -199,7 +202,7 @@ impl Model {
         }
         if let (Some(targeting), Some(encountered)) = (&mut self.targeting, &flight.encountered) {
             targeting.encountered = encountered.clone();
-            self.linearise(sunlit);
+            self.linearise();
             let simulated = self.moves();
             if let Some(targeting) = &mut self.targeting {
                 targeting.simulated = simulated;
@@ -300,8 +303,8 @@ impl Model {
     }
 
     /// Looks at what the model leaves out about the present controls.
-    pub(super) fn look_at_departures(&mut self, sunlit: &SunlitSpacecraft) {
-        self.departures_n_m = departures_n_m(sunlit, &self.simulated, &self.windows);
+    pub(super) fn look_at_departures(&mut self) {
+        self.departures_n_m = departures_n_m(self.sunlit, &self.simulated, &self.windows);
     }
 }
 

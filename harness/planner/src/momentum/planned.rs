@@ -5,7 +5,7 @@ use physics::momentum::Convention;
 
 use super::{
     baseline::{NoOffset, OffsetStep},
-    model::Limit,
+    model::{Limit, Model},
     program::Goal,
     simulated::SimulatedFlight,
     target::Target,
@@ -50,6 +50,29 @@ pub struct PlanTask {
     pub budget_s: f64,
     /// Aim of the flight; without effect where it has no encounter.
     pub target: Option<Target>,
+}
+
+/// A mission to plan.
+#[derive(Clone, Copy, Debug)]
+pub struct PlanProblem<'a> {
+    /// Task of the plan.
+    pub task: &'a PlanTask,
+    /// Spacecraft in sunlight.
+    pub sunlit: &'a SunlitSpacecraft,
+    /// Flight of the mission as it is.
+    pub simulated: &'a SimulatedFlight,
+}
+
+impl<'a> PlanProblem<'a> {
+    /// Windows of the plan and their baseline.
+    pub(super) fn windows(&self) -> Result<(Vec<Window>, Vec<OffsetStep>), PlanError> {
+        self.task.layout.windows(self.sunlit, self.simulated).map_err(PlanError::Corridor)
+    }
+
+    /// Linear model of the flight with windows.
+    pub(super) fn model(&self, windows: Vec<Window>) -> Model<'a> {
+        Model::new(self.sunlit, self.simulated.clone(), windows, self.task.limit.clone())
+    }
 }
 
 /// A dump of the plan.
