@@ -10,6 +10,7 @@ pub mod maneuvers;
 pub mod miss;
 pub mod report;
 pub mod sensitivity;
+mod task;
 #[cfg(test)]
 mod test_flight;
 
@@ -18,3 +19,4 @@ pub use encounter::Encounter;
 pub use flight::ForceModel;
 pub use physics::environment::dates::epoch_s;
 pub use sensitivity::Sensitivity;
+pub use task::FlybyTask;

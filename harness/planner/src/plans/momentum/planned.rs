@@ -8,7 +8,7 @@ use nalgebra::{Matrix4, Vector3};
 
 use super::{
     super::{flights::SimulatedMission, options::FilePlan, progress::Progress},
-    flyby_task::FlybyTask,
+    flyby_task::flyby_task,
     layout::orbit_layout,
     prepared::Prepared,
     timeline::MissionTimeline,
@@ -17,9 +17,10 @@ use super::{
 };
 use crate::{
     Failure,
+    flyby::FlybyTask,
     momentum::{
         Convention, Limit,
-        plan::{Least, PlanTask, PlannedDump, Simulates},
+        plan::{Least, PlanProblem, PlanTask, PlannedDump, Simulates},
         simulated::SimulatedFlight,
         torque::SunlitSpacecraft,
         windows::{Window, WindowKind},
@@ -69,7 +70,7 @@ impl<'a> Planned<'a> {
             .flyby
             .as_ref()
             .zip(aim)
-            .map(|(at, aim)| FlybyTask::new(&file, (&at.it, aim), (&mission, &sunlit), &simulated));
+            .map(|(at, aim)| flyby_task(&file, (&at.it, aim), (&mission, &sunlit), &simulated));
         let flyby_task = flyby_task.transpose()?;
         simulated.encountered =
             flyby_task.as_ref().map(|it| it.aimpoint.encountered(&it.first, &simulated.rows));
@@ -104,6 +105,11 @@ impl<'a> Planned<'a> {
 }
 
 impl Planned<'_> {
+    /// The mission to plan.
+    pub(super) fn problem(&self) -> PlanProblem<'_> {
+        PlanProblem { task: &self.task, sunlit: &self.sunlit, simulated: &self.simulated }
+    }
+
     /// Momentum after a dump, body frame, in N m s.
     pub(super) fn body(&self, windows: &[Window], dump: &PlannedDump) -> Vector3<f64> {
         crate::momentum::plan::body_momentum_n_m_s(&self.sunlit, &self.simulated, windows, dump)

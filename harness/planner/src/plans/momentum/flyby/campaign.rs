@@ -12,13 +12,14 @@ use rayon::prelude::*;
 use crate::{
     Failure,
     flyby::{
+        FlybyTask,
         dispersion::{Dispersions, Draw, Outcome, miss_of},
         report::Campaign,
     },
     momentum::plant::StartValues,
     plans::{
         flights::{Requested, SimulatedMission},
-        momentum::{flyby_task::FlybyTask, planned::Planned},
+        momentum::planned::Planned,
     },
 };
 
