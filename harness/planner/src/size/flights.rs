@@ -52,7 +52,7 @@ pub(super) fn undumped(
     let sets = [undumped, others.to_vec()].concat();
     let outputs = ["momentum.*", "attitude.q", "attitude.rate", "torque.total"];
     let shown = |time_s: f64| bar.set_position((time_s - sized.simulation.start_s) as u64);
-    let recording = simulated(sized, &sets, &outputs, &shown);
+    let recording = simulated(sized, &sets, &outputs, Some(&shown));
     bar.finish_and_clear();
     recording
 }
@@ -89,7 +89,7 @@ pub(super) fn sweep(
 
 fn dumped(sized: &SizedSpacecraft, threshold_n_m_s: Vector3<f64>, strategy: &str) -> Result<Dumped, Failure> {
     let outputs = ["dump.count", "dump.impulse", "propellant.used"];
-    let simulated = simulated(sized, &values(sized, threshold_n_m_s, strategy)?, &outputs, &|_| ())?;
+    let simulated = simulated(sized, &values(sized, threshold_n_m_s, strategy)?, &outputs, None)?;
     let count = numbers(&simulated, "dump.count")?;
     let impulses_n_m_s = vectors(&simulated, "dump.impulse")?;
     let dumps = count.windows(2).enumerate().filter(|(_, pair)| pair[1] > pair[0]);
@@ -130,7 +130,7 @@ fn simulated(
     sized: &SizedSpacecraft,
     sets: &[(String, Value)],
     outputs: &[&str],
-    progress: &dyn Fn(f64),
+    progress: Option<&dyn Fn(f64)>,
 ) -> Result<Recording, Failure> {
     let dumps_apart = outputs.contains(&"dump.count");
     let step_s = if dumps_apart {
@@ -140,9 +140,8 @@ fn simulated(
         // A whole number of steps between unloadings, so that rows end the windows.
         sized.every_s / (sized.every_s / longest_s).ceil()
     };
-    let outputs: Vec<String> = outputs.iter().map(|name| (*name).to_owned()).collect();
-    let stop_s = sized.simulation.start_s + sized.span_s;
-    let flight = Flight { sets, outputs: &outputs, step_s, at_s: None, stop_s, dumps_apart, progress };
+    let (step_s, stop_s) = (Some(step_s), Some(sized.simulation.start_s + sized.span_s));
+    let flight = Flight { sets, outputs, step_s, at_s: None, stop_s, dumps_apart, progress };
     let flown = sized.simulation.fly(&flight)?;
     flown.ended?;
     Ok(flown.recording)

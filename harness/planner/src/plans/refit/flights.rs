@@ -109,12 +109,12 @@ impl Flights for RefitMission {
         let before_s = self.simulated_s.get();
         let flown = self.simulation.fly(&Flight {
             sets: &sets,
-            outputs: &["momentum.inertial", DUMPS].map(str::to_owned),
-            step_s: step_s.min(last_s - start_s),
+            outputs: &["momentum.inertial", DUMPS],
+            step_s: Some(step_s.min(last_s - start_s)),
             at_s: Some(times_s),
-            stop_s: last_s,
+            stop_s: Some(last_s),
             dumps_apart: false,
-            progress: &|time_s| self.bar.set_position((before_s + time_s - start_s) as u64),
+            progress: Some(&|time_s| self.bar.set_position((before_s + time_s - start_s) as u64)),
         })?;
         self.simulated_s.set(before_s + last_s - start_s);
         let recording = flown.recording;

@@ -17,10 +17,8 @@ use crate::{
         report::Campaign,
     },
     momentum::plant::StartValues,
-    plans::{
-        flights::{Requested, SimulatedMission},
-        momentum::planned::Planned,
-    },
+    plans::{flights::SimulatedMission, momentum::planned::Planned},
+    simulation::Flight,
 };
 
 /// Recorded: B of the hyperbola that osculates now, closest approach, momentum.
@@ -59,13 +57,8 @@ pub(super) fn simulated(
     let of = |run: u64| {
         let draw = spread.draw(table.seed, run);
         let sets = dispersed(&mission.values(), &draw, run);
-        let outputs = OUTPUTS.map(str::to_owned);
-        let recording = mission.record(&Requested {
-            sets: &sets,
-            outputs: &outputs,
-            at_s: Some(&times_s),
-            ..Requested::default()
-        });
+        let flight = Flight { sets: &sets, outputs: &OUTPUTS, at_s: Some(&times_s), ..Flight::default() };
+        let recording = mission.record(&flight);
         bar.inc(1);
         let found = recording.map_err(|error| error.to_string());
         (run, found.and_then(|it| outcome(&it, lead_s, flyby_task.aimpoint.b_m)))
