@@ -47,8 +47,8 @@ impl Encounters {
         for row in &mut simulated.rows {
             let sun_body = row.inertial_from_body.inverse() * row.to_sun_m.normalize();
             let panels = sunlit.spacecraft.panels.iter().zip(&sunlit.panels);
-            let angles = panels.map(|(panel, (_, tilt_sign))| {
-                panel.angle_for_sun_offset(&sun_body, windows[0].baseline_rad, *tilt_sign)
+            let angles = panels.map(|(panel, own)| {
+                panel.angle_for_sun_offset(&sun_body, windows[0].baseline_rad, own.tilt.sign)
             });
             row.panel_angles_rad = angles.collect();
         }
