@@ -8,7 +8,7 @@ use fmi::{Ended, Fmu, InputTable, Instance, InstanceOptions, Options, Recording,
 use inputs::variables::selected;
 use isolation::interrupt;
 
-use crate::Failure;
+use crate::{Failure, momentum::plant::StartValues};
 
 /// A mission's FMU with its values.
 pub(crate) struct Simulation {
@@ -63,6 +63,11 @@ impl Simulation {
         let Settings { times, sets, inputs, .. } = settings;
         let opened = Self::new(fmu, folder, [times.start_s, times.stop_s]);
         Ok(Self { sets, inputs, step_s: times.step_s, ..opened })
+    }
+
+    /// Values that its flights start with.
+    pub(crate) fn values(&self) -> StartValues<'_> {
+        StartValues { description: self.fmu.description(), sets: &self.sets }
     }
 
     /// Simulates one flight.

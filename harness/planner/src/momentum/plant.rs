@@ -32,7 +32,8 @@ impl<'a> StartValues<'a> {
     }
 
     /// Value of a Real, or `other` where there is none.
-    fn real_or(&self, name: &str, other: f64) -> f64 {
+    /// A number, or another one where there is none.
+    pub fn real_or(&self, name: &str, other: f64) -> f64 {
         start_values::start(self.description, self.sets, name).map_or(other, |value| value.to_f64())
     }
 

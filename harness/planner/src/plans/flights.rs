@@ -21,11 +21,7 @@ use physics::{
 
 use crate::{
     Failure,
-    momentum::{
-        plant::{self, StartValues},
-        simulated::SimulatedFlight,
-        torque::SunlitSpacecraft,
-    },
+    momentum::{plant, simulated::SimulatedFlight, torque::SunlitSpacecraft},
     simulation::{Flight, Simulation},
 };
 
@@ -162,12 +158,6 @@ impl SimulatedMission {
     pub(super) fn zero_s(&self) -> f64 {
         self.zero_epoch_s.unwrap_or_else(|| self.values().real("start.epoch") - self.start_s)
     }
-
-    /// Its values at the start.
-    pub(super) fn values(&self) -> StartValues<'_> {
-        StartValues { description: self.fmu.description(), sets: &self.sets }
-    }
-
     /// The least `dump.threshold`, in N m s.
     pub(super) fn least_threshold_n_m_s(&self) -> f64 {
         self.values().vector("dump.threshold").min()
