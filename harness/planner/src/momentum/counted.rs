@@ -78,22 +78,24 @@ fn farthest(low: usize, high: usize, mut holds: impl FnMut(usize) -> bool) -> us
     good
 }
 
+/// The farthest step up to which a part from `from` on has controls that keep the limit.
+fn farthest_kept(of: Formulation<'_>, (from, free): (usize, bool), ranges: [f64; 2], scale: f64) -> usize {
+    let holds = |to: usize| is_kept(of, Part { steps: [from, to], free }, ranges, scale);
+    farthest(from, of.model.instants.len(), holds)
+}
+
 /// Ends of the parts between dumps, in steps; `None` where one step alone exceeds the limit.
 fn parts(model: &Model<'_>, guard: f64, scale: f64, most: usize) -> Option<Vec<usize>> {
     let leaders = single(model);
-    let count = model.instants.len();
+    let of = Formulation { model, leaders: &leaders };
     let mut ends = Vec::new();
     let mut from = 0;
-    while from < count {
+    while from < model.instants.len() {
         if ends.len() > most {
             return None;
         }
-        let holds = |to: usize| {
-            let part = Part { steps: [from, to], free: from > 0 };
-            is_kept(Formulation { model, leaders: &leaders }, part, [guard, WHOLE], scale)
-        };
         // Where the limit is exceeded at once nothing is to be dumped yet.
-        let to = farthest(from, count, holds);
+        let to = farthest_kept(of, (from, from > 0), [guard, WHOLE], scale);
         if to == from {
             return None;
         }
@@ -105,15 +107,11 @@ fn parts(model: &Model<'_>, guard: f64, scale: f64, most: usize) -> Option<Vec<u
 
 /// Dumps that no plan on the baseline can do without: each falls somewhere in the step that no relaxed programme reaches the end of.
 fn least_dumps(model: &Model<'_>) -> usize {
-    let leaders = single(model);
-    let count = model.instants.len();
+    let (leaders, count) = (single(model), model.instants.len());
     let (mut from, mut dumps) = (0, 0);
     while from < count {
-        let free = dumps > 0;
-        let to = farthest(from, count, |to| {
-            let part = Part { steps: [from, to], free };
-            is_kept(Formulation { model, leaders: &leaders }, part, [0.0, WHOLE], 1.0)
-        });
+        let of = Formulation { model, leaders: &leaders };
+        let to = farthest_kept(of, (from, dumps > 0), [0.0, WHOLE], 1.0);
         if to >= count {
             break;
         }
@@ -148,11 +146,8 @@ pub(super) fn fewest_dumps(model: &Model<'_>, guard: f64, progress: &mut dyn FnM
 /// Other controls may keep it longer: the model is linear.
 pub(super) fn first_exceeded_s(model: &Model<'_>) -> Option<f64> {
     let leaders = single(model);
-    let count = model.instants.len();
-    let kept = farthest(0, count, |to| {
-        let part = Part { steps: [0, to], free: false };
-        is_kept(Formulation { model, leaders: &leaders }, part, [GUARD, WHOLE], 1.0)
-    });
+    let of = Formulation { model, leaders: &leaders };
+    let kept = farthest_kept(of, (0, false), [GUARD, WHOLE], 1.0);
     model.instants.get(kept).map(|row| model.simulated.rows[*row].time_s)
 }
 

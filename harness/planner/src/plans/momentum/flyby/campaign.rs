@@ -43,14 +43,8 @@ pub(super) fn simulated(
     (flyby_task, arrival_s): (&FlybyTask, f64),
     planned: &Planned<'_>,
 ) -> Result<Campaign, Failure> {
-    let spread =
-        Dispersions { state_root: None, center_of_mass_m: table.center_of_mass_m, scale: table.scale };
-    let spread = match covariance {
-        Some(covariance) => {
-            spread.with_state(&covariance).ok_or("covariance: found none that is positive")?
-        }
-        None => spread,
-    };
+    let spread = Dispersions::new(covariance.as_ref(), table.center_of_mass_m, table.scale)
+        .ok_or("covariance: found none that is positive")?;
     let lead_s = flyby_task.force_model.lead_s;
     let times_s = rows_s([mission.start_s, mission.stop_s], arrival_s - lead_s);
     let bar = terminal::progress(table.runs, "runs", planned.options.quiet);
