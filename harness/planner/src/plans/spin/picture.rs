@@ -176,16 +176,11 @@ fn sphere(burn: &PlannedBurn) -> PlaneChart {
     let middle = right_ascension_declination(&map.middle);
     let whole = panel("the whole sphere", WHOLE_DEG, bodies.clone());
     let near = panel("the turn", close_deg, ends.into_iter().chain(bodies).collect());
-    PlaneChart {
-        title: format!(
-            "{}: spin axis, about right ascension {:.2} deg, declination {:.2} deg",
-            burn.name, middle.right_ascension_deg, middle.declination_deg
-        ),
-        x_label: "east [deg]".to_owned(),
-        y_label: "north [deg]".to_owned(),
-        panels: vec![whole, near],
-        shading: None,
-    }
+    let title = format!(
+        "{}: spin axis, about right ascension {:.2} deg, declination {:.2} deg",
+        burn.name, middle.right_ascension_deg, middle.declination_deg
+    );
+    PlaneChart::new(title, ["east [deg]", "north [deg]"], vec![whole, near])
 }
 
 fn nutation(burn: &PlannedBurn) -> Chart {

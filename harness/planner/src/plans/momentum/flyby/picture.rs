@@ -33,20 +33,17 @@ pub(crate) fn plane(report: &FlybyReport<'_>) -> PlaneChart {
     reach.extend(reach.first().copied());
     let circle = |radius_m: f64| ellipse((0.0, 0.0), [radius_m / 1e3; 2], 0.0);
     // Both panels have the same series, because colours are assigned by index.
-    let series = || {
-        let mut series = vec![
-            Series::rings("aim", vec![km(aimpoint)]),
-            Series::dots("mission as it is", place(&report.miss[0])),
-            Series::dots("plan", place(&report.miss[1])),
-            Series::line("reach", reach.clone()),
-            Series::line("planet", circle(task.radius_m)),
-            Series::dashed("impact", circle(impact_m)),
-        ];
-        if let Some(campaign) = &report.campaign {
-            series.push(Series::dashed("three deviations", ring(campaign, aimpoint)));
-        }
-        series
-    };
+    let mut series = vec![
+        Series::rings("aim", vec![km(aimpoint)]),
+        Series::dots("mission as it is", place(&report.miss[0])),
+        Series::dots("plan", place(&report.miss[1])),
+        Series::line("reach", reach.clone()),
+        Series::line("planet", circle(task.radius_m)),
+        Series::dashed("impact", circle(impact_m)),
+    ];
+    if let Some(campaign) = &report.campaign {
+        series.push(Series::dashed("three deviations", ring(campaign, aimpoint)));
+    }
     let farthest = reach
         .iter()
         .chain(&place(&report.miss[0]))
@@ -54,27 +51,18 @@ pub(crate) fn plane(report: &FlybyReport<'_>) -> PlaneChart {
     let near = |(x, y): (f64, f64)| (x - km(aimpoint).0).abs().max((y - km(aimpoint).1).abs());
     let close = reach.iter().copied().chain(place(&report.miss[0])).map(near).fold(1.0, f64::max);
     let hours = terminal::short(task.force_model.lead_s / 3600.0);
-    PlaneChart {
-        title: format!("B-plane at {}, hyperbola osculating {hours} h before closest approach", task.body()),
-        x_label: "B.T [km]".to_owned(),
-        y_label: "-B.R [km]".to_owned(),
-        panels: vec![
-            PlanePanel {
-                title: task.body().to_owned(),
-                series: series(),
-                half_width: 1.15 * farthest.max(impact_m / 1e3),
-                ..PlanePanel::default()
-            },
-            PlanePanel {
-                title: "about the aim".to_owned(),
-                series: series(),
-                centre: km(aimpoint),
-                half_width: 1.15 * close,
-                ..PlanePanel::default()
-            },
-        ],
-        shading: None,
-    }
+    let body = task.body();
+    let panel = |title: &str, centre: (f64, f64), half_width: f64| PlanePanel {
+        title: title.to_owned(),
+        series: series.clone(),
+        centre,
+        half_width: 1.15 * half_width,
+        ..PlanePanel::default()
+    };
+    let whole = panel(body, (0.0, 0.0), farthest.max(impact_m / 1e3));
+    let title = format!("B-plane at {body}, hyperbola osculating {hours} h before closest approach");
+    let labels = ["B.T [km]", "-B.R [km]"];
+    PlaneChart::new(title, labels, vec![whole, panel("about the aim", km(aimpoint), close)])
 }
 
 fn ring(campaign: &Campaign, aimpoint_m: [f64; 2]) -> Vec<(f64, f64)> {
