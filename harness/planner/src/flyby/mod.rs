@@ -17,6 +17,5 @@ mod test_flight;
 pub use aimpoint::BPlaneAimpoint;
 pub use encounter::Encounter;
 pub use flight::ForceModel;
-pub use physics::environment::dates::epoch_s;
 pub use sensitivity::Sensitivity;
 pub use task::FlybyTask;

@@ -16,7 +16,10 @@ use physics::{
 };
 
 use super::*;
-use crate::orbit::{LambertArc, LambertError};
+use crate::{
+    Failure,
+    orbit::{LambertArc, LambertError},
+};
 
 /// 2008-01-14 19:05 TDB, the first flyby of Mercury.
 const FLYBY_S: f64 = 253_609_500.0;

@@ -7,9 +7,8 @@ use super::{
     baseline::OffsetStep,
     controls::{ARRAYS, Control, Controls, PLACE},
     in_force::{ActiveControls, mean},
-    planned::{AGREED, Least, MomentumPlan, PlanTask},
+    planned::{AGREED, Least, MomentumPlan, PlanProblem, PlanTask},
     simulated::{SAME_S, SimulatedFlight},
-    torque::SunlitSpacecraft,
     windows::{Layout, Window, WindowKind},
 };
 
@@ -52,11 +51,9 @@ pub(super) fn may_stay(layout: &Layout, windows: &[Window]) -> bool {
 }
 
 /// The mission's own windows; `None` where they are not known or break a bound of the plan.
-pub(super) fn own_windows(
-    layout: &Layout,
-    sunlit: &SunlitSpacecraft,
-    simulated: &SimulatedFlight,
-) -> Option<Vec<Window>> {
+pub(super) fn own_windows(problem: &PlanProblem<'_>) -> Option<Vec<Window>> {
+    let PlanProblem { task, sunlit, simulated } = *problem;
+    let layout = &task.layout;
     layout.own.first()?;
     let whole = Layout { window_s: f64::MAX, ..layout.clone() };
     let mut windows = Vec::new();

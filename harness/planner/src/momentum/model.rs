@@ -7,7 +7,7 @@
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, SymmetricEigen, Vector3};
 
 use super::{
-    cell::{At, Cell, cell, guard_shares, instants},
+    cell::{At, Cell, cell, instants},
     relaxed::departures_n_m,
     simulated::{FlightRow, MomentumSize, SAME_S, SimulatedFlight},
     target::{Target, Targeting},
@@ -279,10 +279,26 @@ impl<'a> Model<'a> {
         all.fold(least, |worst, (row, over)| if over > worst.0 { (over, row) } else { worst })
     }
 
-    /// Share of a guard that is left at every row.
+    /// Share of a guard that is left at every row: nothing while the flight is as the mission has it, growing to all over the first
+    /// window that a plan moves, for what it cannot know grows with it; all behind a planned dump.
     pub(super) fn guard_shares(&self) -> Vec<f64> {
-        let is_dump = |row: usize| self.dumps.iter().any(|(at, _)| *at == row);
-        guard_shares(&self.cells, &self.windows, &self.simulated.rows, is_dump)
+        let rows = &self.simulated.rows;
+        let mut shares = vec![0.0];
+        let mut share: f64 = 0.0;
+        for (index, cell) in self.cells.iter().enumerate() {
+            let window = &self.windows[cell.window];
+            if self.dumps.iter().any(|(row, _)| *row == index) {
+                share = 1.0;
+            }
+            if cell.reset.is_some() {
+                share = 0.0;
+            } else if window.kind != WindowKind::Frozen {
+                let duration_s = rows[index + 1].time_s - rows[index].time_s;
+                share = (share + duration_s / window.length_s().max(SAME_S)).min(1.0);
+            }
+            shares.push(share);
+        }
+        shares
     }
 
     /// Looks at how far |H| goes between the instants.

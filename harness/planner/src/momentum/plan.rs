@@ -14,7 +14,7 @@ use physics::constants::DAY_S;
 pub(super) use super::planned::greatest_n_m_s;
 pub use super::planned::{
     AGREED, Exceeded, Least, MomentumPlan, PlanError, PlanProblem, PlanTask, PlannedDump, PlannedRow,
-    Simulates, body_momentum_n_m_s,
+    Simulates,
 };
 use super::{
     as_it_is::{array_changes, is_better, may_stay, own_windows},
@@ -235,12 +235,12 @@ fn as_it_is(
     problem: &PlanProblem<'_>,
     simulates: &mut dyn Simulates,
 ) -> Result<Option<MomentumPlan>, PlanError> {
-    let PlanProblem { task, sunlit, simulated } = *problem;
+    let PlanProblem { task, simulated, .. } = *problem;
     let limit = &task.limit;
     if simulated.greatest(limit.size).0 > limit.kept_n_m_s() {
         return Ok(None);
     }
-    let Some(windows) = own_windows(&task.layout, sunlit, simulated) else { return Ok(None) };
+    let Some(windows) = own_windows(problem) else { return Ok(None) };
     simulates.progress("flight");
     let flight = simulates.simulate(&windows, &[]).map_err(PlanError::Flight)?;
     let mut model = problem.model(windows);

@@ -73,6 +73,19 @@ impl<'a> PlanProblem<'a> {
     pub(super) fn model(&self, windows: Vec<Window>) -> Model<'a> {
         Model::new(self.sunlit, self.simulated.clone(), windows, self.task.limit.clone())
     }
+
+    /// Returns the momentum after a dump of these windows in the body frame, in N m s.
+    pub fn body_momentum_n_m_s(&self, windows: &[Window], dump: &PlannedDump) -> Vector3<f64> {
+        if self.sunlit.convention == Convention::BodyIntegral {
+            return dump.after_n_m_s;
+        }
+        let Some(row) = self.simulated.at(dump.at_s) else { return dump.after_n_m_s };
+        let holds = |window: &&Window| window.start_s <= dump.at_s && window.stop_s > dump.at_s;
+        let window = windows.iter().find(holds);
+        let inertial_from_body = window
+            .map_or(row.inertial_from_body, |window| window.inertial_from_body(self.sunlit, &row, dump.at_s));
+        inertial_from_body.inverse() * dump.after_n_m_s
+    }
 }
 
 /// A dump of the plan.
@@ -154,24 +167,6 @@ impl MomentumPlan {
     pub fn difference_n_m_s(&self) -> f64 {
         self.rows.iter().map(|row| row.difference_n_m_s).fold(0.0, f64::max)
     }
-}
-
-/// Momentum after a dump in the body frame as it stands then, in N m s.
-pub fn body_momentum_n_m_s(
-    sunlit: &SunlitSpacecraft,
-    simulated: &SimulatedFlight,
-    windows: &[Window],
-    dump: &PlannedDump,
-) -> Vector3<f64> {
-    if sunlit.convention == Convention::BodyIntegral {
-        return dump.after_n_m_s;
-    }
-    let Some(row) = simulated.at(dump.at_s) else { return dump.after_n_m_s };
-    let holds = |window: &&Window| window.start_s <= dump.at_s && window.stop_s > dump.at_s;
-    let window = windows.iter().find(holds);
-    let inertial_from_body =
-        window.map_or(row.inertial_from_body, |window| window.inertial_from_body(sunlit, &row, dump.at_s));
-    inertial_from_body.inverse() * dump.after_n_m_s
 }
 
 /// Why there is no plan at all.

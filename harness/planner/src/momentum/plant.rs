@@ -61,14 +61,6 @@ impl<'a> StartValues<'a> {
     }
 }
 
-/// The spacecraft of a file's text.
-///
-/// # Errors
-/// What is wrong in it.
-pub fn spacecraft(file: &str, text: &str) -> Result<Spacecraft, String> {
-    Spacecraft::from_toml(file, text).map_err(|error| error.to_string())
-}
-
 /// The spacecraft in sunlight with these values.
 ///
 /// # Errors

@@ -158,6 +158,7 @@ impl SimulatedMission {
     pub(super) fn zero_s(&self) -> f64 {
         self.zero_epoch_s.unwrap_or_else(|| self.values().real("start.epoch") - self.start_s)
     }
+
     /// The least `dump.threshold`, in N m s.
     pub(super) fn least_threshold_n_m_s(&self) -> f64 {
         self.values().vector("dump.threshold").min()

@@ -8,7 +8,6 @@ mod flights;
 mod parameters;
 mod telemetry;
 
-pub use crate::Failure;
 pub use directions::Direction;
 pub use estimate::Requested;
 pub use fitted::{Fitted, fit, is_trusted};

@@ -11,7 +11,8 @@ use physics::{
 
 use super::super::flights::SimulatedMission;
 use crate::{
-    leg::{Approach, ApproachRow, Failure, SimulatesLeg},
+    Failure,
+    leg::{Approach, ApproachRow, SimulatesLeg},
     simulation::Flight,
 };
 

@@ -102,7 +102,7 @@ impl Planned<'_> {
 
     /// Momentum after a dump, body frame, in N m s.
     pub(super) fn body(&self, windows: &[Window], dump: &PlannedDump) -> Vector3<f64> {
-        crate::momentum::plan::body_momentum_n_m_s(&self.sunlit, &self.simulated, windows, dump)
+        self.problem().body_momentum_n_m_s(windows, dump)
     }
 
     /// Writes timeline and mission of a plan into a folder.
