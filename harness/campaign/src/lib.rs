@@ -8,5 +8,5 @@ pub mod run;
 mod statistics;
 pub mod sweep;
 
-pub use design::{Correlation, Design, DesignError, Distribution, MAX_RUNS, Sampling, Varied};
+pub use design::{Correlation, Design, DesignError, DesignPart, Distribution, MAX_RUNS, Sampling, Varied};
 pub use statistics::{Extremes, PERCENTILES};

@@ -29,6 +29,14 @@ pub struct PlaneChart {
     pub shading: Option<Shading>,
 }
 
+impl PlaneChart {
+    /// Chart of panels without cells that are shaded.
+    pub fn new(title: impl Into<String>, [x_label, y_label]: [&str; 2], panels: Vec<PlanePanel>) -> Self {
+        let [x_label, y_label] = [x_label, y_label].map(str::to_owned);
+        Self { title: title.into(), x_label, y_label, panels, shading: None }
+    }
+}
+
 /// One square of the plane.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct PlanePanel {

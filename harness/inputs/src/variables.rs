@@ -76,12 +76,12 @@ pub fn warn_of_repeated(option: &str, settings: &[String]) {
 /// A pattern that means nothing.
 pub fn selected(
     description: &Description,
-    patterns: &[String],
+    patterns: &[impl AsRef<str>],
     select: fn(&Description, &str) -> Result<Vec<usize>, Error>,
 ) -> Result<Vec<usize>, Error> {
     let mut positions = Vec::new();
     for pattern in patterns {
-        let found = select(description, pattern)?;
+        let found = select(description, pattern.as_ref())?;
         positions
             .extend(found.into_iter().filter(|position| !positions.contains(position)).collect::<Vec<_>>());
     }

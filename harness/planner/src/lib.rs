@@ -5,7 +5,6 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "tests make their own files"))]
 
 pub mod ephemeris;
-mod failure;
 pub mod flyby;
 pub mod leg;
 pub mod map;
@@ -19,4 +18,5 @@ pub mod spin;
 mod text_table;
 pub mod torque_map;
 
-pub use failure::Failure;
+/// Reason why something could not be planned.
+pub type Failure = Box<dyn std::error::Error>;

@@ -8,7 +8,7 @@ use fmi::{Ended, Fmu, InputTable, Instance, InstanceOptions, Options, Recording,
 use inputs::variables::selected;
 use isolation::interrupt;
 
-use crate::Failure;
+use crate::{Failure, momentum::plant::StartValues};
 
 /// A mission's FMU with its values.
 pub(crate) struct Simulation {
@@ -26,22 +26,22 @@ pub(crate) struct Simulation {
 }
 
 /// Extent of one flight.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(crate) struct Flight<'a> {
     /// Values that win over those of all flights.
     pub sets: &'a [(String, Value)],
     /// Outputs, as `record` of a mission names them.
-    pub outputs: &'a [String],
-    /// Distance of communication points, in s; no longer than the flight.
-    pub step_s: f64,
+    pub outputs: &'a [&'a str],
+    /// Distance of communication points, in s, no longer than the flight; otherwise that of all flights.
+    pub step_s: Option<f64>,
     /// Rows at these times alone, in s, which grow from the start on; otherwise at communication points.
     pub at_s: Option<&'a [f64]>,
-    /// End, in s.
-    pub stop_s: f64,
+    /// End, in s; otherwise that of all flights.
+    pub stop_s: Option<f64>,
     /// Whether every dump has a row of its own.
     pub dumps_apart: bool,
     /// Hears of the time in s after every step.
-    pub progress: &'a dyn Fn(f64),
+    pub progress: Option<&'a dyn Fn(f64)>,
 }
 
 /// A flight that came to its end, or an error that ended it, with what was recorded until then.
@@ -65,6 +65,11 @@ impl Simulation {
         Ok(Self { sets, inputs, step_s: times.step_s, ..opened })
     }
 
+    /// Values that its flights start with.
+    pub(crate) fn values(&self) -> StartValues<'_> {
+        StartValues { description: self.fmu.description(), sets: &self.sets }
+    }
+
     /// Simulates one flight.
     ///
     /// # Errors
@@ -73,13 +78,13 @@ impl Simulation {
         let description = self.fmu.description();
         let counter = || description.variables.iter().position(|it| it.name == "dump.count");
         let mut goes_on = |time_s: f64| {
-            (flight.progress)(time_s);
+            flight.progress.iter().for_each(|progress| progress(time_s));
             !interrupt::raised()
         };
         let options = Options {
             start_s: Some(self.start_s),
-            stop_s: Some(flight.stop_s),
-            step_s: Some(flight.step_s),
+            stop_s: Some(flight.stop_s.unwrap_or(self.stop_s)),
+            step_s: Some(flight.step_s.unwrap_or(self.step_s)),
             sets: [&self.sets, flight.sets].concat(),
             inputs: self.inputs.as_ref(),
             record: Some(selected(description, flight.outputs, fmi::select_outputs)?),

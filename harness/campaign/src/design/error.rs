@@ -1,45 +1,30 @@
-//! Why a campaign has no values.
+//! Reasons why a campaign has no values.
 
-use sobol_burley::NUM_DIMENSIONS;
-
-/// Why there is no such design.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum DesignError {
+/// Part of a campaign that a refusal is about.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum DesignPart {
     /// The number of runs.
-    #[error("found {found} runs, allowed: {allowed}")]
-    Runs {
-        /// As they were given.
-        found: u64,
-        /// Numbers of runs that the sampling takes.
-        allowed: String,
-    },
-    /// No variable varies, or a list has no value.
-    #[error("found {found}, allowed: {allowed}")]
-    Empty {
-        /// List that is empty.
-        found: String,
-        /// Allowed content.
-        allowed: &'static str,
-    },
-    /// A distribution that the sampling does not take.
-    #[error("found {name} as {distribution} with sampling {sampling}, allowed: {allowed}")]
-    Kind {
-        /// The variable.
-        name: String,
-        /// Its distribution's key.
-        distribution: &'static str,
-        /// The sampling's key.
-        sampling: &'static str,
-        /// Values that it takes.
-        allowed: &'static str,
-    },
-    /// A correlation that cannot be.
-    #[error("{0}")]
-    Correlation(String),
-    /// More variables than the Sobol sequence has dimensions.
-    #[error("found {found} variables with sampling sobol, allowed: up to {NUM_DIMENSIONS}")]
-    Dimensions {
-        /// How many there are.
-        found: usize,
-    },
+    Runs,
+    /// A variable that varies, by its name.
+    Variable(String),
+    /// The correlations.
+    Correlations,
+    /// Everything.
+    Campaign,
+}
+
+/// Reason why there is no such design.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{what}")]
+pub struct DesignError {
+    /// Part of the campaign that it is about.
+    pub part: DesignPart,
+    what: String,
+}
+
+impl DesignError {
+    /// Refusal of a part, with what was found and what is allowed.
+    pub(super) fn new(part: DesignPart, what: impl Into<String>) -> Self {
+        Self { part, what: what.into() }
+    }
 }

@@ -14,7 +14,7 @@ use rand_chacha::{
 use sobol_burley::parts::sobol_rev;
 
 pub use distribution::{Distribution, Varied};
-pub use error::DesignError;
+pub use error::{DesignError, DesignPart};
 pub use sampling::{MAX_RUNS, Sampling};
 
 /// 2^-32 and 2^-53.
@@ -57,10 +57,9 @@ impl Design {
         seed: u64,
     ) -> Result<Self, DesignError> {
         if varied.is_empty() {
-            return Err(DesignError::Empty {
-                found: "nothing that varies".to_owned(),
-                allowed: "at least one variable in `vary`, or a file with values",
-            });
+            let what =
+                "found nothing that varies, allowed: at least one variable in `vary`, or a file with values";
+            return Err(DesignError::new(DesignPart::Campaign, what));
         }
         sampling.check(&varied)?;
         let runs = sampling.runs(&varied, runs)?;
@@ -194,11 +193,10 @@ fn root(
     if correlations.is_empty() {
         return Ok(None);
     }
+    let refused = |what: String| DesignError::new(DesignPart::Correlations, what);
     if !matches!(sampling, Sampling::Random | Sampling::LatinHypercube | Sampling::Sobol) {
-        return Err(DesignError::Correlation(format!(
-            "found a correlation with sampling {}, allowed: random, latinHypercube, sobol",
-            sampling.key()
-        )));
+        let found = format!("found a correlation with sampling {}", sampling.key());
+        return Err(refused(format!("{found}, allowed: random, latinHypercube, sobol")));
     }
     let mut matrix = DMatrix::identity(varied.len(), varied.len());
     for Correlation { names, coefficient } in correlations {
@@ -206,27 +204,18 @@ fn root(
             let variable = varied.iter().position(|varied| varied.name == *name);
             let normal =
                 variable.filter(|it| matches!(varied[*it].distribution, Distribution::Normal { .. }));
-            normal.ok_or_else(|| {
-                DesignError::Correlation(format!(
-                    "found {name:?}, allowed: a variable in `vary` that is normal"
-                ))
-            })
+            let what = || format!("found {name:?}, allowed: a variable in `vary` that is normal");
+            normal.ok_or_else(|| refused(what()))
         });
         let (one, other) = (one?, other?);
         if one == other {
-            return Err(DesignError::Correlation(format!(
-                "found {:?} with itself, allowed: two variables",
-                names[0]
-            )));
+            return Err(refused(format!("found {:?} with itself, allowed: two variables", names[0])));
         }
         matrix[(one, other)] = *coefficient;
         matrix[(other, one)] = *coefficient;
     }
     let root = matrix.cholesky().map(|cholesky| cholesky.l());
-    root.map(Some).ok_or_else(|| {
-        DesignError::Correlation(
-            "found correlations that no variables can have together, allowed: a matrix that is positive definite"
-                .to_owned(),
-        )
-    })
+    let what =
+        "found correlations that no variables can have together, allowed: a matrix that is positive definite";
+    root.map(Some).ok_or_else(|| refused(what.to_owned()))
 }

@@ -2,7 +2,10 @@
 
 use sobol_burley::NUM_DIMENSIONS;
 
-use super::{distribution::Varied, error::DesignError};
+use super::{
+    distribution::Varied,
+    error::{DesignError, DesignPart},
+};
 
 /// Runs of a campaign at most.
 pub const MAX_RUNS: u64 = 1_000_000_000;
@@ -44,23 +47,20 @@ impl Sampling {
     /// Refuses distributions that it does not take.
     pub(super) fn check(&self, varied: &[Varied]) -> Result<(), DesignError> {
         for Varied { name, distribution } in varied {
+            let refused = |what: String| Err(DesignError::new(DesignPart::Variable(name.clone()), what));
             if distribution.listed().is_some_and(<[f64]>::is_empty) {
-                return Err(DesignError::Empty {
-                    found: format!("{name} without a value"),
-                    allowed: "at least one value",
-                });
+                return refused(format!("found {name} without a value, allowed: at least one value"));
             }
             if *self == Self::Grid && distribution.listed().is_none() {
-                return Err(DesignError::Kind {
-                    name: name.clone(),
-                    distribution: distribution.key(),
-                    sampling: self.key(),
-                    allowed: "values and steps",
-                });
+                let found = format!("found {name} as {} with sampling {}", distribution.key(), self.key());
+                return refused(format!("{found}, allowed: values and steps"));
             }
         }
-        if *self == Self::Sobol && varied.len() > NUM_DIMENSIONS as usize {
-            return Err(DesignError::Dimensions { found: varied.len() });
+        let count = varied.len();
+        if *self == Self::Sobol && count > NUM_DIMENSIONS as usize {
+            let what =
+                format!("found {count} variables with sampling sobol, allowed: up to {NUM_DIMENSIONS}");
+            return Err(DesignError::new(DesignPart::Campaign, what));
         }
         Ok(())
     }
@@ -82,17 +82,16 @@ impl Sampling {
             Self::LatinHypercube => MAX_STRATA / (varied.len() as u64).max(1),
             _ => MAX_RUNS,
         };
-        let runs = match (own, given) {
-            (Some(own), Some(found)) if own != found => {
-                let allowed = format!("{own}, which sampling {} has, or no `runs`", self.key());
-                return Err(DesignError::Runs { found, allowed });
-            }
-            (Some(own), _) => own,
-            (None, given) => given.unwrap_or(0),
+        let refused = |allowed: String| {
+            let found = given.map_or_else(|| "no `runs`".to_owned(), |found| format!("{found} runs"));
+            Err(DesignError::new(DesignPart::Runs, format!("found {found}, allowed: {allowed}")))
         };
+        if let Some(own) = own.filter(|own| given.is_some_and(|given| given != *own)) {
+            return refused(format!("{own}, which sampling {} has, or no `runs`", self.key()));
+        }
+        let runs = own.or(given).unwrap_or(0);
         if !(1..=most).contains(&runs) {
-            let allowed = format!("1 to {most} with sampling {}", self.key());
-            return Err(DesignError::Runs { found: runs, allowed });
+            return refused(format!("1 to {most} with sampling {}", self.key()));
         }
         Ok(runs)
     }

@@ -36,7 +36,7 @@ use isolation::{interrupt, large};
 
 use crate::run::{Settings, Subject};
 pub use options::Sweep;
-use origin::Digests;
+use origin::{Digests, to_toml};
 use outputs::{Beside, CampaignFiles, Opened};
 use pool::{Attempt, Pool};
 use repeated::Sample;
@@ -129,7 +129,7 @@ fn print_values(started: &Started<'_>, folder: &Path) -> Outcome {
     if !is_stdout {
         let digests = Digests::new(file, campaign, folder, runs)?;
         let beside = Destination::open(&sidecar_of(output), OPTION, &started.inputs())?;
-        started.write_beside(beside, &digests)?;
+        beside.fill_durably(|file| file.write_all(to_toml(started, &digests).as_bytes()))?;
     }
     Ok(Answer::Yes)
 }
@@ -153,15 +153,12 @@ fn carry_out(started: &Started<'_>, folder: &Path) -> Outcome {
     let workers = arguments.workers.map_or_else(cores, u64::from).min((rest.end - rest.start).max(1));
     let is_over = AtomicBool::new(false);
     let pool = Pool {
-        file: &arguments.campaign,
-        campaign,
-        described,
+        started,
         folder,
         runs: rest,
         workers,
         attempt: Attempt::First,
         limits: large(workers),
-        timeout_s: arguments.timeout,
         histories: histories.as_ref().map(|it| &it.place),
         series: series.as_ref(),
         is_over: &is_over,

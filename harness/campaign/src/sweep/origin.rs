@@ -6,12 +6,11 @@ use inputs::{
     campaign::file::CampaignFile,
     epoch::{self, is_epoch},
 };
-use model_description::Description;
 use tables::output::{EPOCH_KEY, set_identity, set_times};
 use toml_edit::{DocumentMut, Item, Table};
 use uuid::Uuid;
 
-use super::resolved::Campaign;
+use super::{resolved::Campaign, started::Started};
 
 /// Names of digests are in a name space of their own.
 const NAME_SPACE: Uuid = Uuid::from_u128(0x8e5d_3f0a_71c4_4b52_9d26_c0f1_6a4e_92b7);
@@ -105,11 +104,9 @@ fn gather(root: &Path, folder: &Path, bytes: &mut Vec<u8>) -> io::Result<()> {
     Ok(())
 }
 
-/// The file beside a table of these runs.
-pub(super) fn to_toml(
-    (file, campaign, digests): (&CampaignFile, &Campaign, &Digests),
-    described: &Description,
-) -> String {
+/// The text beside a table: units, seed, versions, digests.
+pub(super) fn to_toml(started: &Started<'_>, digests: &Digests) -> String {
+    let Started { file, campaign, described, .. } = *started;
     let runs = &digests.runs;
     let mut document = DocumentMut::new();
     let mut set = |key: &str, item: Item| drop(document.insert(key, item));

@@ -11,7 +11,7 @@ use tables::output::{OutputFile, OutputKind, check_standing};
 
 use super::{
     histories::{HISTORIES, HistoryPlace},
-    origin::Digests,
+    origin::{Digests, to_toml},
     series::{Series, percentiles_path},
     started::{Counts, OPTION, Started},
     table::{self, LeftRows},
@@ -98,9 +98,10 @@ impl CampaignFiles {
         }
         let histories = histories(started, &inputs)?;
         let beside = begun.zip(complete).map(|(begun, complete)| {
+            let text = to_toml(started, digests);
             let at_part = Destination::open(&begun, OPTION, &inputs)?;
-            started.write_beside(at_part, digests)?;
-            Ok::<_, String>(Beside { text: started.text_beside(digests), complete, begun })
+            at_part.fill_durably(|file| file.write_all(text.as_bytes()))?;
+            Ok::<_, String>(Beside { text, complete, begun })
         });
         Ok(Opened::Begun(Box::new(Self { growing, left, series, beside: beside.transpose()?, histories })))
     }

@@ -16,9 +16,8 @@ use isolation::{
     Bounds, ChildProcess, EndReason, Frame, NOT_REQUESTED, Request, ResourceLimits, Runs, Shown, Supervised,
     interrupt,
 };
-use model_description::Description;
 
-use super::{histories::HistoryPlace, resolved::Campaign, series::Series, worker::RunStatus};
+use super::{histories::HistoryPlace, series::Series, started::Started, worker::RunStatus};
 use crate::run::take_row;
 
 /// Result of a run.
@@ -47,17 +46,13 @@ pub(super) enum Attempt {
 
 /// Common data of the processes.
 pub(super) struct Pool<'a> {
-    pub file: &'a Path,
-    pub campaign: &'a Campaign,
-    pub described: &'a Description,
+    pub started: &'a Started<'a>,
     pub folder: &'a Path,
     pub runs: Range<u64>,
     pub workers: u64,
     pub attempt: Attempt,
     /// Limits of each process.
     pub limits: ResourceLimits,
-    /// Longest time of a call in s.
-    pub timeout_s: Option<f64>,
     pub histories: Option<&'a HistoryPlace>,
     pub series: Option<&'a Series>,
     /// Raised where the rest need not be simulated.
@@ -111,7 +106,11 @@ impl Pool<'_> {
                 // It did not come to a run: with the instance that is reset, a new one each time is left to try.
                 None if inbox.next == next && !is_fresh => is_fresh = true,
                 None if inbox.next == next => {
-                    return Err(format!("{}: {}", self.described.model_name, supervised.without_result()));
+                    return Err(format!(
+                        "{}: {}",
+                        self.started.described.model_name,
+                        supervised.without_result()
+                    ));
                 }
                 None => {}
             }
@@ -126,12 +125,12 @@ impl Pool<'_> {
 
     /// Until a process has ended; how it did.
     fn one_process(&self, first: u64, is_fresh: bool, inbox: &mut Inbox<'_>) -> Result<Supervised, String> {
-        let (campaign, folder) = (self.file.into(), self.folder.into());
+        let (campaign, folder) = (self.started.arguments.campaign.as_path().into(), self.folder.into());
         let (stride, end) = (self.workers, self.runs.end);
         let runs = Runs { campaign, folder, first, stride, end, is_fresh };
         let child = ChildProcess::new(Request::Sweep(runs), self.limits, None)?;
-        let bounds = Bounds { call_s: self.timeout_s, ..Bounds::default() };
-        let mut shown = Shown::new(&self.described.model_name);
+        let bounds = Bounds { call_s: self.started.arguments.timeout, ..Bounds::default() };
+        let mut shown = Shown::new(&self.started.described.model_name);
         let inbox = RefCell::new(inbox);
         let supervised = child.supervise(
             bounds,
@@ -170,7 +169,7 @@ impl Inbox<'_> {
         if self.has_ended {
             return Err(NOT_REQUESTED.to_owned());
         }
-        let Campaign { kept, .. } = self.pool.campaign;
+        let kept = &self.pool.started.campaign.kept;
         match (frame, self.current) {
             (Frame::RunStarted(run, was_reset), None) if run == self.next => {
                 self.current = Some(run);
@@ -178,7 +177,8 @@ impl Inbox<'_> {
                 self.next += self.pool.workers;
                 self.points.clear();
                 let has_history = kept.histories > 0;
-                self.collector = has_history.then(|| Collector::new(self.pool.described, &kept.positions));
+                self.collector =
+                    has_history.then(|| Collector::new(self.pool.started.described, &kept.positions));
             }
             (Frame::Numbers(numbers), Some(_)) if numbers.len() == kept.percentiles.len() => {
                 self.points.extend_from_slice(&numbers);
@@ -201,7 +201,7 @@ impl Inbox<'_> {
 
     /// A run that its process did not end.
     fn failed(&mut self, run: u64, supervised: &Supervised) -> Result<(), String> {
-        let count = self.pool.campaign.kept.count();
+        let count = self.pool.started.campaign.kept.count();
         let why = supervised.without_result();
         let (status, reason) = match (supervised.end_reason.is_from_outside(), self.pool.attempt) {
             (true, Attempt::First) => (RunStatus::Killed, format!("killed from outside: {why}")),
@@ -217,7 +217,7 @@ impl Inbox<'_> {
             series.put(result.run, &self.points)?;
         }
         if let (Some(place), Some(collector)) = (self.pool.histories, self.collector.take()) {
-            let columns = self.pool.campaign.kept.histories;
+            let columns = self.pool.started.campaign.kept.histories;
             write_history(place.destination(result.run)?, collector.recording(), columns)?;
         }
         // Without a receiver the campaign is over.

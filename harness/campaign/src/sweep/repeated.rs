@@ -44,7 +44,7 @@ impl Sample {
     /// # Errors
     /// A process that cannot be started.
     pub(super) fn warn(&self, pool: &Pool<'_>) -> Result<(), String> {
-        let columns = pool.campaign.kept.columns(pool.described);
+        let columns = pool.started.campaign.kept.columns(pool.started.described);
         let repeated = thread::scope(|scope| {
             let (sender, results) = mpsc::channel();
             let followed: Vec<_> = self

@@ -17,7 +17,7 @@ use model_description::{BaseType, Description, ScalarVariable, value};
 
 use super::recorded_columns::RecordedColumns;
 use crate::{
-    Correlation, Design, DesignError, Distribution, Sampling, Varied,
+    Correlation, Design, DesignPart, Distribution, Sampling, Varied,
     run::{Run, Settings, Simulated, Subject},
 };
 
@@ -318,24 +318,19 @@ impl Reader<'_> {
         }
         let runs = file.runs.as_ref().map(|at| at.it);
         Design::new(varied, (sampling, runs), &correlations, file.seed).map_err(|error| {
-            match (&error, &file.runs) {
-                (DesignError::Runs { .. }, Some(at)) => file.problem(at, &error.to_string()),
-                (DesignError::Runs { allowed, .. }, None) => {
-                    format!("{}: found no `runs`, allowed: {allowed}", file.file.display())
-                }
-                (DesignError::Kind { name, .. } | DesignError::Empty { found: name, .. }, _) => {
+            let (what, shown) = (error.to_string(), file.file.display());
+            let at_place = match &error.part {
+                DesignPart::Runs => file.runs.as_ref().map(|at| file.problem(at, &what)),
+                DesignPart::Variable(name) => {
                     let at = file.distributions().find(|at| name.starts_with(at.it.name));
-                    at.map_or_else(
-                        || format!("{}: {error}", file.file.display()),
-                        |at| file.problem(&at, &error.to_string()),
-                    )
+                    at.map(|at| file.problem(&at, &what))
                 }
-                (DesignError::Correlation(_), _) => match file.correlations.first() {
-                    Some(at) => format!("{}:{}: correlation: {error}", file.file.display(), at.line),
-                    None => error.to_string(),
-                },
-                _ => format!("{}: {error}", file.file.display()),
-            }
+                DesignPart::Correlations => {
+                    file.correlations.first().map(|at| format!("{shown}:{}: correlation: {what}", at.line))
+                }
+                DesignPart::Campaign => None,
+            };
+            at_place.unwrap_or_else(|| format!("{shown}: {what}"))
         })
     }
 }

@@ -2,17 +2,11 @@
 
 use std::{ops::Range, path::Path};
 
-use files::Destination;
+use files::outcome::Answer;
 use inputs::campaign::file::CampaignFile;
 use model_description::Description;
 
-use super::{
-    options::Sweep,
-    origin::{self, Digests},
-    resolved::Campaign,
-    worker::RunStatus,
-};
-use files::outcome::Answer;
+use super::{options::Sweep, resolved::Campaign, worker::RunStatus};
 
 /// Option that names the table.
 pub(super) const OPTION: &str = "--output";
@@ -37,15 +31,6 @@ impl Started<'_> {
         inputs.push(&self.arguments.campaign);
         inputs.extend(self.file.table.as_deref());
         inputs
-    }
-
-    /// The text beside a table: units, seed, versions, digests.
-    pub(super) fn text_beside(&self, digests: &Digests) -> String {
-        origin::to_toml((self.file, self.campaign, digests), self.described)
-    }
-
-    pub(super) fn write_beside(&self, beside: Destination, digests: &Digests) -> Result<(), String> {
-        beside.fill_durably(|file| file.write_all(self.text_beside(digests).as_bytes()))
     }
 }
 

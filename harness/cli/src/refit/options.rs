@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use inputs::values::{number, positive};
+use planner::refit::Deviations;
 
 use crate::patience::Reader;
 
@@ -56,9 +57,11 @@ impl Refit {
         planner::plans::refit::Refit {
             mission: it.mission,
             telemetry: it.telemetry,
-            noise: it.noise,
-            prior_center: it.prior_center,
-            prior_scale: it.prior_scale,
+            deviations: Deviations {
+                noise_n_m_s: it.noise,
+                center_of_mass_m: it.prior_center,
+                solar_scale: it.prior_scale,
+            },
             output: it.output,
             template: it.reader.template,
             quiet: it.quiet,

@@ -8,6 +8,7 @@ use std::{
 
 use model_description::value::Value;
 use nalgebra::{Matrix3x6, Vector2, Vector3};
+use physics::spacecraft::Spacecraft;
 use planner::{
     flyby::{ForceModel, Sensitivity, miss::MissCost},
     momentum::{
@@ -121,7 +122,7 @@ impl Leg {
         let mut force_model = ForceModel::new(&values, 0.0).unwrap();
         force_model.lead_s = LEAD_S;
         let spacecraft = fs::read_to_string("../../fmu-src/resources/messenger.toml").unwrap();
-        let spacecraft = plant::spacecraft("messenger.toml", &spacecraft).unwrap();
+        let spacecraft = Spacecraft::from_toml("messenger.toml", &spacecraft).unwrap();
         let sunlit = plant::sunlit(spacecraft, &values, Convention::Inertial).unwrap();
         (flight, force_model, sunlit)
     }

@@ -12,8 +12,11 @@ use physics::{
     numerics::{Span, chebyshev::Segment},
 };
 
-use super::coarse::{COARSE_SAMPLES, coarse_elements};
-use super::source::{Source, states};
+use super::{
+    coarse::{COARSE_SAMPLES, coarse_elements},
+    request::EphemerisRequest,
+    source::{Source, states},
+};
 use crate::Failure;
 
 /// Length of the segments to begin with: of planets, and of the spacecraft.
@@ -31,21 +34,6 @@ const HALVINGS: u32 = 12;
 /// Epochs, evenly spaced, at which coarse elements are checked.
 const COARSE_CHECKS: u32 = 2_000;
 
-/// Requested accuracy and extent of a fit.
-#[derive(Clone, Copy, Debug)]
-pub struct Requested {
-    /// First and last epoch, in s past J2000 TDB.
-    pub span: Span,
-    /// Length of the segments, if given.
-    pub segment_s: Option<f64>,
-    /// Degree, if given.
-    pub degree: Option<usize>,
-    /// Otherwise the greatest error of position.
-    pub tolerance_m: f64,
-    /// Whether no progress is shown.
-    pub is_quiet: bool,
-}
-
 /// The precise model of a target.
 ///
 /// # Errors
@@ -53,31 +41,31 @@ pub struct Requested {
 pub fn precise(
     source: &dyn Source,
     target: OnboardTarget,
-    requested: &Requested,
+    request: &EphemerisRequest,
 ) -> Result<FittedBody<SegmentTable>, Failure> {
-    let center = source.center();
+    let ([start_s, stop_s], center) = (request.span_s, source.center());
     if target == OnboardTarget::from(center) {
         return Err(format!("--bodies: {target} is the center, from where positions count").into());
     }
     let sampled = |segment_s: f64| -> Result<(FitPlan, Vec<CartesianState>), Failure> {
-        let plan = FitPlan::new(requested.span, segment_s);
-        let states = states(source, &[target], &plan.epochs_s(), requested.is_quiet)?.pop();
+        let plan = FitPlan::new(Span::new(start_s, stop_s), segment_s);
+        let states = states(source, &[target], &plan.epochs_s(), request.is_quiet)?.pop();
         Ok((plan, states.unwrap_or_default()))
     };
-    if let Some(degree) = requested.degree {
-        let (plan, states) = sampled(requested.segment_s.unwrap_or(SEGMENT_S))?;
+    if let Some(degree) = request.degree {
+        let (plan, states) = sampled(request.segment_s.unwrap_or(SEGMENT_S))?;
         let (motion, error) = plan.fit(&states, degree.min(GREATEST_DEGREE));
         return Ok(FittedBody { target, center, motion, error });
     }
     let is_spacecraft = usize::from(target == OnboardTarget::Spacecraft);
-    let mut segment_s = requested.segment_s.unwrap_or(LONGEST_S[is_spacecraft]);
-    let halvings = if requested.segment_s.is_some() { 0 } else { HALVINGS };
+    let mut segment_s = request.segment_s.unwrap_or(LONGEST_S[is_spacecraft]);
+    let halvings = if request.segment_s.is_some() { 0 } else { HALVINGS };
     let mut best: Option<(FitError, f64)> = None;
     for _ in 0..=halvings {
         let (plan, states) = sampled(segment_s)?;
         for degree in DEGREES {
             let (motion, error) = plan.fit(&states, degree);
-            if error.position_m <= requested.tolerance_m {
+            if error.position_m <= request.tolerance_m {
                 return Ok(FittedBody { target, center, motion, error });
             }
             if best.is_none_or(|(best, _)| error.position_m < best.position_m) {
@@ -94,7 +82,7 @@ pub fn precise(
     Err(format!(
         "--tolerance: no fit of {target} up to degree {} keeps {} m; the best found errs by {} m, with segments of {} d",
         DEGREES.end(),
-        terminal::short(requested.tolerance_m),
+        terminal::short(request.tolerance_m),
         terminal::short(error.position_m),
         terminal::short(best_s / DAY_S)
     )

@@ -4,11 +4,13 @@ mod coarse;
 mod fit;
 mod flight;
 mod onboard;
+mod request;
 mod source;
 pub mod spk;
 
 pub use crate::Failure;
-pub use fit::{Requested, coarse, precise};
-pub use onboard::{EphemerisRequest, fit};
+pub use fit::{coarse, precise};
+pub use onboard::fit;
 pub use physics::environment::onboard::OnboardTarget;
+pub use request::EphemerisRequest;
 pub use source::Source;

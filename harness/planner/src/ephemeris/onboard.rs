@@ -1,7 +1,5 @@
 //! Ephemeris of bodies over a span, from a flight or from kernels, as the text of its file.
 
-use std::path::PathBuf;
-
 use isolation::interrupt;
 use packing::carried::ephemeris::{FILE, table};
 use physics::{
@@ -9,65 +7,23 @@ use physics::{
     numerics::Span,
 };
 
-use super::{
-    Failure, Requested, Source, coarse,
-    flight::RepeatableSimulation,
-    precise,
-    spk::{Center, Kernels},
-};
-
-/// Request of `heliotorque ephemeris`.
-#[derive(Clone, Debug)]
-pub struct EphemerisRequest {
-    /// FMU that is simulated where there are no kernels.
-    pub fmu: PathBuf,
-    /// Start values of that FMU.
-    pub set: Vec<String>,
-    /// SPK kernels.
-    pub kernels: Vec<PathBuf>,
-    /// Centre of positions in kernels.
-    pub center: Option<Center>,
-    /// NAIF id of the spacecraft in kernels.
-    pub spacecraft: Option<i32>,
-    /// Bodies that are fitted.
-    pub targets: Vec<OnboardTarget>,
-    /// First and last epoch, in s past J2000 TDB.
-    pub span_s: [f64; 2],
-    /// Last epoch of coarse models, where they are requested.
-    pub coarse_until_s: Option<f64>,
-    /// Length of a segment, in s.
-    pub segment_s: Option<f64>,
-    /// Degree of the polynomials.
-    pub degree: Option<usize>,
-    /// Error of position that is allowed, in m.
-    pub tolerance_m: f64,
-    /// Whether no progress is shown.
-    pub is_quiet: bool,
-}
+use super::{EphemerisRequest, Failure, Source, coarse, flight::RepeatableSimulation, precise, spk::Kernels};
 
 /// Text of the file and a table of its contents; `None` after Ctrl-C.
 ///
 /// # Errors
 /// States that the source does not have, and fits beyond the tolerance.
 pub fn fit(request: &EphemerisRequest) -> Result<Option<(String, String)>, Failure> {
-    let [start_s, stop_s] = request.span_s;
     let source = source(request)?;
     let mut made = OnboardEphemeris { source: Some(source.title()), ..OnboardEphemeris::default() };
-    let requested = Requested {
-        span: Span::new(start_s, stop_s),
-        segment_s: request.segment_s,
-        degree: request.degree,
-        tolerance_m: request.tolerance_m,
-        is_quiet: request.is_quiet,
-    };
     for target in &request.targets {
-        made.precise.push(precise(&*source, *target, &requested)?);
+        made.precise.push(precise(&*source, *target, request)?);
         if interrupt::raised() {
             return Ok(None);
         }
     }
     if let Some(until_s) = request.coarse_until_s {
-        let span = Span::new(start_s, until_s);
+        let span = Span::new(request.span_s[0], until_s);
         made.coarse = coarse(&*source, &request.targets, span, request.is_quiet)?;
     }
     let text = terminal::unsigned_zeros(&to_toml(&made)).into_owned();

@@ -6,10 +6,10 @@ use nalgebra::{Matrix2, Matrix6, Vector2, Vector3, Vector6};
 use physics::numerics::noise::{Channel, normal, normal_vector};
 
 /// Standard deviations and covariances that are drawn from.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dispersions {
     /// Lower triangular root of the covariance of position (m) and velocity (m/s).
-    pub state_root: Option<Matrix6<f64>>,
+    state_root: Option<Matrix6<f64>>,
     /// Standard deviation of each coordinate of the centre of mass, in m.
     pub center_of_mass_m: f64,
     /// Standard deviation of the scale of sunlight.
@@ -30,10 +30,13 @@ pub struct Draw {
 }
 
 impl Dispersions {
-    /// With the covariance of position and velocity; `None` where it is not positive.
-    pub fn with_state(mut self, covariance: &Matrix6<f64>) -> Option<Self> {
-        self.state_root = Some(covariance.cholesky()?.l());
-        Some(self)
+    /// Errors with a covariance of position and velocity; `None` where that is not positive.
+    pub fn new(covariance: Option<&Matrix6<f64>>, center_of_mass_m: f64, scale: f64) -> Option<Self> {
+        let state_root = match covariance {
+            Some(covariance) => Some(covariance.cholesky()?.l()),
+            None => None,
+        };
+        Some(Self { state_root, center_of_mass_m, scale })
     }
 
     /// Draws the errors of a run.
@@ -85,8 +88,7 @@ mod tests {
     fn draws_have_the_covariance_that_was_given() {
         let mut covariance = Matrix6::from_diagonal(&Vector6::new(9e6, 4e6, 1e6, 1e-6, 4e-6, 9e-6));
         (covariance[(0, 3)], covariance[(3, 0)]) = (1.5, 1.5);
-        let all = Dispersions { center_of_mass_m: 0.01, scale: 0.02, ..Dispersions::default() };
-        let all = all.with_state(&covariance).unwrap();
+        let all = Dispersions::new(Some(&covariance), 0.01, 0.02).unwrap();
         let (count, mut sums) = (20_000_u64, [0.0; 4]);
         for run in 0..count {
             let draw = all.draw(3, run);
@@ -100,6 +102,6 @@ mod tests {
         }
         assert_eq!(all.draw(3, 11), all.draw(3, 11));
         assert_ne!(all.draw(3, 11), all.draw(4, 11));
-        assert!(Dispersions::default().with_state(&-covariance).is_none());
+        assert!(Dispersions::new(Some(&-covariance), 0.01, 0.02).is_none());
     }
 }

@@ -10,11 +10,12 @@ pub mod maneuvers;
 pub mod miss;
 pub mod report;
 pub mod sensitivity;
+mod task;
 #[cfg(test)]
 mod test_flight;
 
 pub use aimpoint::BPlaneAimpoint;
 pub use encounter::Encounter;
 pub use flight::ForceModel;
-pub use physics::environment::dates::epoch_s;
 pub use sensitivity::Sensitivity;
+pub use task::FlybyTask;

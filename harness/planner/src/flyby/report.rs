@@ -6,9 +6,11 @@ use serde_json::{Value, json};
 
 use super::{
     dispersion::Outcome,
+    encounter::Encounter,
     maneuvers::{Maneuver, ellipse},
     miss::MissCost,
     sensitivity::{DesiredDeltaV, Sensitivity},
+    task::FlybyTask,
 };
 use crate::{
     momentum::{
@@ -52,27 +54,14 @@ pub struct Campaign {
 }
 
 /// Results of a plan with a flyby.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FlybyReport {
-    /// B along T and R aimed at, in m.
-    pub aimpoint_m: [f64; 2],
-    /// Difference between s past J2000 TDB and the time of the flight.
-    pub epoch_minus_time_s: f64,
-    /// Name of the planet.
-    pub body: &'static str,
-    /// Radius of the planet, in m.
-    pub radius_m: f64,
-    /// Its gravitational parameter, in m3/s2.
-    pub gm_m3_s2: f64,
-    /// Time before closest approach at which the hyperbola of B osculates, in s.
-    pub lead_s: f64,
-    /// Whether the time of arrival is a goal.
-    pub is_timed: bool,
+#[derive(Clone, Debug)]
+pub struct FlybyReport<'a> {
+    /// Task of all flights.
+    pub task: &'a FlybyTask,
     /// Miss of the mission as it is, and of the plan: along T and R in m, of the arrival in s.
     pub miss: [Option<Vector3<f64>>; 2],
-    /// Encounter of the plan's flight, of the mission's where there is no plan: closest approach and osculation in s of the flight,
-    /// altitude in m, speed far from the planet in m/s.
-    pub encounter: [f64; 4],
+    /// Encounter of the plan's flight, of the mission's where there is no plan.
+    pub encounter: Encounter,
     /// Places that the encounter can be moved to from the mission's own.
     pub reach: Reachable,
     /// Whether no choice of arrays and attitudes that reaches the aimpoint was found.
@@ -85,21 +74,28 @@ pub struct FlybyReport {
     pub campaign: Option<Campaign>,
 }
 
-/// Closest approach and osculation in s of the flight, altitude in m, speed far from the planet in m/s.
-pub fn encounter_of(sensitivity: &Sensitivity, radius_m: f64) -> [f64; 4] {
-    let encounter = &sensitivity.encounter;
-    [
-        encounter.time_s,
-        encounter.epoch_s,
-        encounter.closest.position_m.norm() - radius_m,
-        encounter.plane.excess_speed_m_s,
-    ]
-}
+impl<'a> FlybyReport<'a> {
+    /// The encounter of the mission as it is.
+    pub fn new(task: &'a FlybyTask) -> Self {
+        Self {
+            task,
+            miss: [None, None],
+            encounter: task.first.encounter.clone(),
+            reach: Reachable::default(),
+            is_out_of_reach: false,
+            desired: Vec::new(),
+            compared: None,
+            campaign: None,
+        }
+    }
 
-impl FlybyReport {
+    /// Altitude of the closest approach, in m.
+    pub fn altitude_m(&self) -> f64 {
+        self.encounter.closest.position_m.norm() - self.task.radius_m
+    }
+
     /// Members of `plan.json`.
     pub fn members(&self) -> Value {
-        let [arrival_s, osculation_s, altitude_m, excess_m_s] = self.encounter;
         let [miss_before, miss_after] = self.miss.map(|miss| miss.map(|it| [it.x, it.y]));
         let [late_before, late_after] = self.miss.map(|miss| miss.map(|it| it.z));
         let [plus_t, minus_t, plus_r, minus_r] = self.reach.along_m;
@@ -112,18 +108,18 @@ impl FlybyReport {
             })
         });
         json!({
-            "aim_m": self.aimpoint_m,
+            "aim_m": self.task.aimpoint.b_m,
             "missBefore_m": miss_before,
             "missAfter_m": miss_after,
             "lateBefore_s": late_before,
             "lateAfter_s": late_after,
-            "arrival_s": arrival_s,
-            "osculation_s": osculation_s,
-            "osculationEpoch_s": osculation_s + self.epoch_minus_time_s,
-            "altitude_m": altitude_m,
-            "excessSpeed_m_s": excess_m_s,
+            "arrival_s": self.encounter.time_s,
+            "osculation_s": self.encounter.epoch_s,
+            "osculationEpoch_s": self.encounter.epoch_s + self.task.force_model.epoch_minus_time_s,
+            "altitude_m": self.altitude_m(),
+            "excessSpeed_m_s": self.encounter.plane.excess_speed_m_s,
             "reach_m": { "+T": plus_t, "-T": minus_t, "+R": plus_r, "-R": minus_r },
-            "reachable_m": self.reach.polygon_m,
+            "reachable_m": self.reach.region_m.corners,
             "desiredDeltaV": desired.collect::<Vec<_>>(),
             "maneuvers": self.compared.as_ref().map(compared),
             "dispersions": self.campaign.as_ref().map(campaign),

@@ -75,7 +75,7 @@ impl Sensitivity {
                 };
                 let cell =
                     partials_over(&method, span, &partials, gradient).map_err(|error| error.to_string())?;
-                partials = *cell.at_start();
+                partials = cell.at_start;
                 cells.push(cell);
             }
             if let Some(flip) = flip.filter(|flip| flip.time_s >= from_s) {

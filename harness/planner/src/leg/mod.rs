@@ -7,7 +7,6 @@ mod shooting;
 #[cfg(test)]
 mod tests;
 
-pub use crate::Failure;
 pub use aimpoint::{Flyby, b_m, closest_distance_m, impact_parameter_m};
 pub use approach::{Approach, ApproachRow, Encounter};
 pub use shooting::{Leg, LegError, LegTask, MAX_LEG_S, SimulatesLeg, shoot};

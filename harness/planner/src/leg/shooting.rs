@@ -60,6 +60,8 @@ pub struct LegTask {
     pub revolutions: Option<(u32, ArcBranch)>,
     /// Velocity before the departure, which says in which sense the leg goes around; otherwise as planets do. EME2000, m/s.
     pub velocity_before_m_s: Option<Vector3<f64>>,
+    /// The body at the arrival, from the Sun, EME2000.
+    pub body: CartesianState,
     /// Gravitational parameter of the body, m3/s2.
     pub mu_m3_s2: f64,
     /// Its radius, m.
@@ -70,12 +72,6 @@ pub struct LegTask {
 
 /// Flights of a mission from the leg's place with any velocity.
 pub trait SimulatesLeg {
-    /// The body at a time, from the Sun, EME2000.
-    ///
-    /// # Errors
-    /// A flight that is refused.
-    fn body(&mut self, time_s: f64) -> Result<CartesianState, Failure>;
-
     /// The place at the time of arrival, from the Sun, EME2000, in m, of a flight that the body does not attract.
     ///
     /// # Errors
@@ -99,8 +95,6 @@ pub struct Leg {
     pub velocity_m_s: Vector3<f64>,
     /// Velocity of Lambert's arc to the body's centre.
     pub lambert_m_s: Vector3<f64>,
-    /// The body at the requested arrival, from the Sun, EME2000.
-    pub body: CartesianState,
     /// Encounter of the last flight.
     pub encounter: Encounter,
     /// Miss of the aimpoint by that flight, along T and R, m.
@@ -240,7 +234,7 @@ impl LegTask {
 /// No arc, an aimpoint inside the body, flights that are refused or do not come near.
 pub fn shoot(task: &LegTask, flights: &mut dyn SimulatesLeg) -> Result<Leg, LegError> {
     flights.progress("Lambert's arc");
-    let body = flights.body(task.arrival_s).map_err(LegError::Flight)?;
+    let body = &task.body;
     let [lambert_m_s, end_m_s] = task.lambert_m_s(body.position_m)?;
     let speed_m_s = lambert_m_s.norm().max(end_m_s.norm());
     if speed_m_s > MAX_SPEED_M_S {
@@ -279,7 +273,7 @@ pub fn shoot(task: &LegTask, flights: &mut dyn SimulatesLeg) -> Result<Leg, LegE
         if lacks_m.norm() <= task.tolerance_m {
             let miss_m = [-lacks_m.x, -lacks_m.y];
             let rounds = [unattracted, round];
-            return Ok(Leg { velocity_m_s, lambert_m_s, body, encounter, miss_m, rounds });
+            return Ok(Leg { velocity_m_s, lambert_m_s, encounter, miss_m, rounds });
         }
         if let Some((before_m, change_m_s)) = last {
             let different_m = before_m - lacks_m - matrix_s * change_m_s;

@@ -16,7 +16,10 @@ use physics::{
 };
 
 use super::*;
-use crate::orbit::{LambertArc, LambertError};
+use crate::{
+    Failure,
+    orbit::{LambertArc, LambertError},
+};
 
 /// 2008-01-14 19:05 TDB, the first flyby of Mercury.
 const FLYBY_S: f64 = 253_609_500.0;
@@ -81,10 +84,6 @@ impl Flights<'_> {
 }
 
 impl SimulatesLeg for Flights<'_> {
-    fn body(&mut self, time_s: f64) -> Result<CartesianState, Failure> {
-        Ok(self.sky.heliocentric(Body::Mercury, time_s))
-    }
-
     fn unattracted_m(&mut self, velocity_m_s: &Vector3<f64>) -> Result<Vector3<f64>, Failure> {
         Ok(self.states(velocity_m_s, &[self.task.arrival_s], false)?[0].position_m)
     }
@@ -120,6 +119,7 @@ fn task(days: f64, aimpoint: FlybyAimpoint) -> LegTask {
         lead_s: LEAD_S,
         revolutions: None,
         velocity_before_m_s: None,
+        body: Sky(Ephemeris::default()).heliocentric(Body::Mercury, 0.0),
         mu_m3_s2: GM_MERCURY_M3_S2,
         radius_m: RADIUS_MERCURY_M,
         tolerance_m: 1.0,

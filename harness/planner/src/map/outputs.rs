@@ -17,7 +17,7 @@ const OPTIONS: [&str; 3] = [OPTION, OPTION, "--lines"];
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Destinations of picture, torque, lines.
-pub(super) struct Outputs([Option<(Destination, PathBuf)>; 3]);
+pub(super) struct Outputs([Option<Destination>; 3]);
 
 /// Files that were written.
 pub(super) struct Written {
@@ -34,13 +34,12 @@ impl Outputs {
         let is_drawn = arguments.output.is_empty() && !arguments.no_picture;
         let picture = picture.map(Path::to_owned).or_else(|| is_drawn.then(|| usual_picture(arguments)));
         let mut opened = [None, None, None];
-        let paths = [picture, table.map(Path::to_owned), arguments.lines.clone()];
-        for (k, path) in paths.into_iter().enumerate() {
-            let Some(path) = path else { continue };
-            opened[k] = Some((Destination::open(&path, OPTIONS[k], &inputs)?, path));
+        let paths = [picture.as_deref(), table, arguments.lines.as_deref()];
+        for (opened, (path, option)) in opened.iter_mut().zip(paths.into_iter().zip(OPTIONS)) {
+            *opened = path.map(|path| Destination::open(path, option, &inputs)).transpose()?;
         }
         let named: Vec<_> =
-            opened.iter().zip(OPTIONS).filter_map(|(it, option)| Some((&it.as_ref()?.0, option))).collect();
+            opened.iter().zip(OPTIONS).filter_map(|(it, option)| Some((it.as_ref()?, option))).collect();
         for (k, (one, option)) in named.iter().enumerate() {
             if let Some((_, other)) = named[k + 1..].iter().find(|(other, _)| one.is_same(other)) {
                 return Err(format!("one file cannot take both: see {option} and {other}"));
@@ -55,10 +54,10 @@ impl Outputs {
         let contents: [&dyn Fn() -> String; 3] =
             [&|| picture::svg(spacecraft, found), &|| torque(spacecraft, found), &|| lines(found)];
         for (opened, content) in self.0.into_iter().zip(contents) {
-            let Some((destination, path)) = opened else { continue };
+            let Some(destination) = opened else { continue };
             match destination.is_stdout() {
                 true => written.takes_stdout = true,
-                false => written.files.push(path.display().to_string()),
+                false => written.files.push(destination.path().display().to_string()),
             }
             destination.fill(|file| file.write_all(content().as_bytes()))?;
         }

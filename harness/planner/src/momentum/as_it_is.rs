@@ -7,9 +7,8 @@ use super::{
     baseline::OffsetStep,
     controls::{ARRAYS, Control, Controls, PLACE},
     in_force::{ActiveControls, mean},
-    planned::{AGREED, Least, MomentumPlan, PlanTask},
+    planned::{AGREED, Least, MomentumPlan, PlanProblem, PlanTask},
     simulated::{SAME_S, SimulatedFlight},
-    torque::SunlitSpacecraft,
     windows::{Layout, Span, Window, WindowKind},
 };
 
@@ -57,11 +56,9 @@ fn undivided(layout: &Layout) -> Layout {
 }
 
 /// The mission's own windows; `None` where they are not known.
-pub(super) fn own_windows(
-    layout: &Layout,
-    sunlit: &SunlitSpacecraft,
-    simulated: &SimulatedFlight,
-) -> Option<Vec<Window>> {
+pub(super) fn own_windows(problem: &PlanProblem<'_>) -> Option<Vec<Window>> {
+    let PlanProblem { task, sunlit, simulated } = *problem;
+    let layout = &task.layout;
     layout.own.first()?;
     let whole = undivided(layout);
     let mut windows = Vec::new();

@@ -13,9 +13,9 @@ use super::{
     counted,
     formulation::{Formulation, Part},
     model::Model,
-    plan::{PlanError, PlanTask, PlannedDump, Simulates, give, refine},
+    plan::{PlanError, PlanProblem, PlannedDump, Simulates, give, refine},
     program::{GUARD, Goal, TargetRow, WHOLE},
-    region::Region,
+    region::{Point, Region},
     simulated::{FlightRow, SimulatedFlight},
     target::{LinearMiss, Target},
     torque::{Attitude, SunlitSpacecraft},
@@ -39,9 +39,8 @@ const ASIDE_M: f64 = 10.0;
 const ASIDE: f64 = 0.03;
 
 /// The model of a mission before any flight of a plan.
-fn bare(task: &PlanTask, sunlit: &SunlitSpacecraft, simulated: &SimulatedFlight) -> Result<Model, PlanError> {
-    let (windows, _) = task.layout.windows(sunlit, simulated).map_err(PlanError::Corridor)?;
-    Ok(Model::new(sunlit, simulated.clone(), windows, task.limit.clone()))
+fn bare<'a>(problem: &PlanProblem<'a>) -> Result<Model<'a>, PlanError> {
+    Ok(problem.model(problem.windows()?.0))
 }
 
 /// Simulates nothing and reports no progress.
@@ -58,16 +57,11 @@ impl Simulates for Silent {
 ///
 /// # Errors
 /// A corridor without an offset, a programme without an answer.
-pub fn least_excess_n_m_s(
-    task: &PlanTask,
-    sunlit: &SunlitSpacecraft,
-    simulated: &SimulatedFlight,
-    from_s: f64,
-) -> Result<f64, PlanError> {
-    let mut model = bare(task, sunlit, simulated)?;
+pub fn least_excess_n_m_s(problem: &PlanProblem<'_>, from_s: f64) -> Result<f64, PlanError> {
+    let mut model = bare(problem)?;
     model.judged_from_s = from_s;
     let single = counted::single(&model);
-    refine(&mut model, sunlit, &single, (Goal::LeastExcess, WHOLE), &mut Silent)?;
+    refine(&mut model, &single, (Goal::LeastExcess, WHOLE), &mut Silent)?;
     Ok(model.excess_n_m_s().0)
 }
 
@@ -75,14 +69,10 @@ pub fn least_excess_n_m_s(
 ///
 /// # Errors
 /// A corridor without an offset, a programme without an answer.
-pub fn fewest_dumps(
-    task: &PlanTask,
-    sunlit: &SunlitSpacecraft,
-    simulated: &SimulatedFlight,
-) -> Result<Option<usize>, PlanError> {
-    let mut model = bare(task, sunlit, simulated)?;
+pub fn fewest_dumps(problem: &PlanProblem<'_>) -> Result<Option<usize>, PlanError> {
+    let mut model = bare(problem)?;
     let single = counted::single(&model);
-    if refine(&mut model, sunlit, &single, (Goal::LeastExcess, WHOLE), &mut Silent)? {
+    if refine(&mut model, &single, (Goal::LeastExcess, WHOLE), &mut Silent)? {
         return Ok(Some(0));
     }
     Ok(counted::fewest_dumps(&model, GUARD, &mut || {}).map(|found| found.rows.len()))
@@ -111,31 +101,28 @@ pub fn downlink_momentum_n_m_s(
 pub struct Reachable {
     /// Farthest along +T, -T, +R, -R, the other one unchanged; `None` where no place there was found.
     pub along_m: [Option<f64>; 4],
-    /// Corners of the places that were found, counterclockwise from T to R.
-    pub polygon_m: Vec<[f64; 2]>,
+    /// Least convex region with all places that were found.
+    pub region_m: Region,
 }
 
 /// The places that the target of a flight can be moved to within the limits: those that were found, which all others may lie beyond.
 ///
 /// # Errors
 /// A corridor without an offset, a programme without an answer.
-pub fn reachable(
-    task: &PlanTask,
-    sunlit: &SunlitSpacecraft,
-    simulated: &SimulatedFlight,
-    simulates: &mut dyn Simulates,
-) -> Result<Reachable, PlanError> {
-    let mut model = bare(task, sunlit, &simulated.thinned(REACH_ROWS_S))?;
+pub fn reachable(problem: &PlanProblem<'_>, simulates: &mut dyn Simulates) -> Result<Reachable, PlanError> {
+    let PlanProblem { task, simulated, .. } = *problem;
+    let thinned = simulated.thinned(REACH_ROWS_S);
+    let mut model = bare(&PlanProblem { simulated: &thinned, ..*problem })?;
     // The target itself is no limit here.
     let free = task.target.map(|_| Target { tolerance: [None; 3] });
-    model.set_target(sunlit, free, own_windows(&task.layout, sunlit, simulated));
+    model.set_target(free, own_windows(problem));
     simulates.progress("reach");
     let Some(encountered) = &simulated.encountered else { return Ok(Reachable::default()) };
     let single = counted::single(&model);
     if model.excess_n_m_s().0 > 0.0 {
-        refine(&mut model, sunlit, &single, (Goal::LeastExcess, WHOLE), simulates)?;
+        refine(&mut model, &single, (Goal::LeastExcess, WHOLE), simulates)?;
     }
-    let search = Search { model, sunlit, here: encountered.miss.xy() };
+    let search = Search { model, here: encountered.miss.xy() };
     let axes = [Vector2::x(), -Vector2::x(), Vector2::y(), -Vector2::y()];
     // As far as it goes, and straight.
     let found: Vec<[Option<Corner>; 2]> = axes
@@ -165,24 +152,19 @@ pub fn reachable(
     if simulated.greatest(task.limit.size).0 <= task.limit.kept_n_m_s() {
         places.push(Vector2::zeros());
     }
-    let polygon_m = hull(places);
-    Ok(Reachable { along_m: axes.map(|axis| along_m(&polygon_m, &axis)), polygon_m })
+    let region_m = Region::hull(places.into_iter().map(Point::from));
+    Ok(Reachable { along_m: axes.map(|axis| along_m(&region_m, &axis)), region_m })
 }
 
 /// Whether the programme of a plan meets the target within the limits, by the model before any flight of it.
 ///
 /// # Errors
 /// A corridor without an offset, a programme without an answer.
-pub fn meets_target(
-    task: &PlanTask,
-    sunlit: &SunlitSpacecraft,
-    simulated: &SimulatedFlight,
-    simulates: &mut dyn Simulates,
-) -> Result<bool, PlanError> {
-    let mut model = bare(task, sunlit, simulated)?;
-    model.set_target(sunlit, task.target, own_windows(&task.layout, sunlit, simulated));
+pub fn meets_target(problem: &PlanProblem<'_>, simulates: &mut dyn Simulates) -> Result<bool, PlanError> {
+    let mut model = bare(problem)?;
+    model.set_target(problem.task.target, own_windows(problem));
     let single = counted::single(&model);
-    refine(&mut model, sunlit, &single, (Goal::LeastExcess, WHOLE), simulates)
+    refine(&mut model, &single, (Goal::LeastExcess, WHOLE), simulates)
 }
 
 /// A place in the B-plane from where the flight meets it, in m, and the controls of the windows that lead there by the model.
@@ -197,14 +179,13 @@ type Heading = (Vector2<f64>, bool);
 
 /// Search of the places farthest from `here`, where the flight meets the B-plane.
 struct Search<'a> {
-    model: Model,
-    sunlit: &'a SunlitSpacecraft,
+    model: Model<'a>,
     here: Vector2<f64>,
 }
 
 impl Search<'_> {
     /// The model's place and controls; `None` without a target.
-    fn corner(&self, model: &Model) -> Option<Corner> {
+    fn corner(&self, model: &Model<'_>) -> Option<Corner> {
         let controls = model.windows.iter().map(|window| window.controls).collect();
         Some(Corner { place_m: model.miss()?.xy() - self.here, controls })
     }
@@ -225,7 +206,7 @@ impl Search<'_> {
                     window.controls = window.controls.with(Control::Alternate, share * *most);
                     *most = if share > 0.0 { *most } else { 0.0 };
                 }
-                model.linearise(self.sunlit);
+                model.linearise();
             }
             self.climb(&mut model, heading, None)
         });
@@ -259,7 +240,7 @@ impl Search<'_> {
     fn climb_from(&self, from: &Corner, direction: Vector2<f64>) -> Corner {
         let mut model = self.model.clone();
         model.windows.iter_mut().zip(&from.controls).for_each(|(window, it)| window.controls = *it);
-        model.linearise(self.sunlit);
+        model.linearise();
         self.climb(&mut model, (direction, false), Some(from.clone())).unwrap_or_else(|| from.clone())
     }
 
@@ -267,7 +248,7 @@ impl Search<'_> {
     /// range about it narrows where it is not.
     fn climb(
         &self,
-        model: &mut Model,
+        model: &mut Model<'_>,
         (direction, is_straight): Heading,
         mut found: Option<Corner>,
     ) -> Option<Corner> {
@@ -296,7 +277,7 @@ impl Search<'_> {
             let Some(solution) = program.solve(Goal::Farthest) else { break };
             let mut next = model.clone();
             give(&mut next, &leaders, &solution);
-            next.linearise(self.sunlit);
+            next.linearise();
             next.look_between();
             let corner = self.corner(&next)?;
             let along_m = |corner: &Corner| direction.dot(&corner.place_m);
@@ -330,9 +311,9 @@ fn farthest<'a>(corners: impl Iterator<Item = &'a Corner>, direction: &Vector2<f
     corners.max_by(|a, b| along_m(a).total_cmp(&along_m(b)))
 }
 
-/// How far a convex polygon goes along a ray from the origin, in m; `None` where the ray does not meet it.
-fn along_m(polygon_m: &[[f64; 2]], axis: &Vector2<f64>) -> Option<f64> {
-    let places = || polygon_m.iter().map(|corner| Vector2::from(*corner));
+/// How far a convex region goes along a ray from the origin, in m; `None` where the ray does not meet it.
+fn along_m(region_m: &Region, axis: &Vector2<f64>) -> Option<f64> {
+    let places = || region_m.corners.iter().map(|corner| Vector2::from(*corner));
     let crossed = places().zip(places().cycle().skip(1)).filter_map(|(from, to)| {
         let [aside, next] = [from, to].map(|place| axis.perp(&place));
         if aside == 0.0 {
@@ -342,11 +323,6 @@ fn along_m(polygon_m: &[[f64; 2]], axis: &Vector2<f64>) -> Option<f64> {
         (aside * next < 0.0).then(|| axis.dot(&from.lerp(&to, share)))
     });
     crossed.filter(|along_m| *along_m >= 0.0).max_by(f64::total_cmp)
-}
-
-/// Corners of the least convex region with all of these places, counterclockwise.
-fn hull(places: Vec<Vector2<f64>>) -> Vec<[f64; 2]> {
-    Region::hull(places.into_iter().map(|place| [place.x, place.y])).corners
 }
 
 #[cfg(test)]

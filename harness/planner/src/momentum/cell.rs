@@ -108,32 +108,6 @@ pub(crate) fn instants(cells: &[Cell], windows: &[Window], rows: &[FlightRow]) -
     instants
 }
 
-/// Share of a guard that is left at every row: nothing while the flight is as the mission has it, growing to all over the first window
-/// that a plan moves, for what it cannot know grows with it; all behind a planned dump.
-pub(crate) fn guard_shares(
-    cells: &[Cell],
-    windows: &[Window],
-    rows: &[FlightRow],
-    is_dump: impl Fn(usize) -> bool,
-) -> Vec<f64> {
-    let mut shares = vec![0.0];
-    let mut share: f64 = 0.0;
-    for (index, cell) in cells.iter().enumerate() {
-        let window = &windows[cell.window];
-        if is_dump(index) {
-            share = 1.0;
-        }
-        if cell.reset.is_some() {
-            share = 0.0;
-        } else if window.kind != WindowKind::Frozen {
-            let duration_s = rows[index + 1].time_s - rows[index].time_s;
-            share = (share + duration_s / window.length_s().max(SAME_S)).min(1.0);
-        }
-        shares.push(share);
-    }
-    shares
-}
-
 /// From one row to the next, with the share in the alternate attitude and that by unit of its control.
 pub(crate) fn cell(
     window: usize,

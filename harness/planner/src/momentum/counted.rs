@@ -46,7 +46,7 @@ pub(super) struct Groups {
 }
 
 /// Every window by itself, but that the arrays do not move where they are held.
-pub(super) fn single(model: &Model) -> Vec<usize> {
+pub(super) fn single(model: &Model<'_>) -> Vec<usize> {
     (0..model.windows.len()).collect()
 }
 
@@ -78,22 +78,24 @@ fn farthest(low: usize, high: usize, mut holds: impl FnMut(usize) -> bool) -> us
     good
 }
 
+/// The farthest step up to which a part from `from` on has controls that keep the limit.
+fn farthest_kept(of: Formulation<'_>, (from, free): (usize, bool), ranges: [f64; 2], scale: f64) -> usize {
+    let holds = |to: usize| is_kept(of, Part { steps: [from, to], free }, ranges, scale);
+    farthest(from, of.model.instants.len(), holds)
+}
+
 /// Ends of the parts between dumps, in steps; `None` where one step alone exceeds the limit.
-fn parts(model: &Model, guard: f64, scale: f64, most: usize) -> Option<Vec<usize>> {
+fn parts(model: &Model<'_>, guard: f64, scale: f64, most: usize) -> Option<Vec<usize>> {
     let leaders = single(model);
-    let count = model.instants.len();
+    let of = Formulation { model, leaders: &leaders };
     let mut ends = Vec::new();
     let mut from = 0;
-    while from < count {
+    while from < model.instants.len() {
         if ends.len() > most {
             return None;
         }
-        let holds = |to: usize| {
-            let part = Part { steps: [from, to], free: from > 0 };
-            is_kept(Formulation { model, leaders: &leaders }, part, [guard, WHOLE], scale)
-        };
         // Where the limit is exceeded at once nothing is to be dumped yet.
-        let to = farthest(from, count, holds);
+        let to = farthest_kept(of, (from, from > 0), [guard, WHOLE], scale);
         if to == from {
             return None;
         }
@@ -104,16 +106,12 @@ fn parts(model: &Model, guard: f64, scale: f64, most: usize) -> Option<Vec<usize
 }
 
 /// Dumps that no plan on the baseline can do without: each falls somewhere in the step that no relaxed programme reaches the end of.
-fn least_dumps(model: &Model) -> usize {
-    let leaders = single(model);
-    let count = model.instants.len();
+fn least_dumps(model: &Model<'_>) -> usize {
+    let (leaders, count) = (single(model), model.instants.len());
     let (mut from, mut dumps) = (0, 0);
     while from < count {
-        let free = dumps > 0;
-        let to = farthest(from, count, |to| {
-            let part = Part { steps: [from, to], free };
-            is_kept(Formulation { model, leaders: &leaders }, part, [0.0, WHOLE], 1.0)
-        });
+        let of = Formulation { model, leaders: &leaders };
+        let to = farthest_kept(of, (from, dumps > 0), [0.0, WHOLE], 1.0);
         if to >= count {
             break;
         }
@@ -123,7 +121,7 @@ fn least_dumps(model: &Model) -> usize {
 }
 
 /// The fewest dumps about the model's controls; `None` where dumps do not help.
-pub(super) fn fewest_dumps(model: &Model, guard: f64, progress: &mut dyn FnMut()) -> Option<Dumps> {
+pub(super) fn fewest_dumps(model: &Model<'_>, guard: f64, progress: &mut dyn FnMut()) -> Option<Dumps> {
     let ends = parts(model, guard, 1.0, usize::MAX - 1)?;
     let count = ends.len() - 1;
     progress();
@@ -146,19 +144,16 @@ pub(super) fn fewest_dumps(model: &Model, guard: f64, progress: &mut dyn FnMut()
 
 /// The end of the first step up to which no controls are found that keep the limit without a dump, in s; `None` where some do throughout.
 /// Other controls may keep it longer: the model is linear.
-pub(super) fn first_exceeded_s(model: &Model) -> Option<f64> {
+pub(super) fn first_exceeded_s(model: &Model<'_>) -> Option<f64> {
     let leaders = single(model);
-    let count = model.instants.len();
-    let kept = farthest(0, count, |to| {
-        let part = Part { steps: [0, to], free: false };
-        is_kept(Formulation { model, leaders: &leaders }, part, [GUARD, WHOLE], 1.0)
-    });
+    let of = Formulation { model, leaders: &leaders };
+    let kept = farthest_kept(of, (0, false), [GUARD, WHOLE], 1.0);
     model.instants.get(kept).map(|row| model.simulated.rows[*row].time_s)
 }
 
 /// Searches the places of the changes.
 struct Search<'m> {
-    model: &'m Model,
+    model: &'m Model<'m>,
     /// Share of the limit that is left, and of every control's range about its present value.
     ranges: [f64; 2],
     /// Windows that begin a group in any case.
@@ -275,7 +270,7 @@ impl Search<'_> {
 /// The fewest changes of the arrays with which the limits are kept within a range about the model's controls, sought until a time;
 /// `None` where not even a change at every window keeps them.
 pub(super) fn fewest_changes(
-    model: &Model,
+    model: &Model<'_>,
     ranges: [f64; 2],
     until: Instant,
     progress: &mut dyn FnMut(),

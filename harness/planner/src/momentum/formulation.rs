@@ -28,7 +28,7 @@ pub(super) struct Part {
 
 impl Part {
     /// The whole flight of a model.
-    pub(super) fn whole(model: &Model) -> Self {
+    pub(super) fn whole(model: &Model<'_>) -> Self {
         Self { steps: [0, model.instants.len()], free: false }
     }
 }
@@ -42,7 +42,7 @@ pub(super) fn index(leaders: &[usize], window: usize, control: Control) -> usize
 /// A model whose arrays stand alike in every window and its leader.
 #[derive(Clone, Copy)]
 pub(super) struct Formulation<'m> {
-    pub model: &'m Model,
+    pub model: &'m Model<'m>,
     pub leaders: &'m [usize],
 }
 

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use nalgebra::Vector3;
 use physics::constants::DAY_S;
 
 use super::region::{Point, Region};
@@ -20,7 +21,7 @@ pub struct Mission {
     pub from: &'static str,
     times_s: Vec<f64>,
     /// Gathered by the disturbance since the first row, with the momentum there, body components.
-    gathered_n_m_s: Vec<[f64; 3]>,
+    gathered_n_m_s: Vec<Vector3<f64>>,
     /// From the Sun, in m, if it was recorded.
     distances_m: Option<Vec<f64>>,
     /// Dumps that were simulated, if they were recorded.
@@ -88,9 +89,10 @@ impl Table {
         self.names.iter().position(|candidate| candidate == name).map(|index| &self.values[index])
     }
 
-    fn vector(&self, names: [&str; 3]) -> Option<[&Vec<f64>; 3]> {
+    fn vectors(&self, names: [&str; 3]) -> Option<Vec<Vector3<f64>>> {
         let [x, y, z] = names.map(|name| self.column(name));
-        Some([x?, y?, z?])
+        let (x, y, z) = (x?, y?, z?);
+        Some((0..x.len()).map(|row| Vector3::new(x[row], y[row], z[row])).collect())
     }
 
     fn misses(&self, what: &str) -> String {
@@ -114,12 +116,14 @@ impl Mission {
             return Err(table.misses("two rows whose times rise, allowed: a recording of `run`"));
         }
         let dumps = table.column(DUMPS);
-        let momentum = table.vector(MOMENTUM);
-        let start_n_m_s = momentum.map_or([0.0; 3], |columns| columns.map(|column| column[0]));
-        let (from, gathered_n_m_s) = match (table.vector(TORQUE), momentum, dumps) {
-            (Some(torque), _, _) => ("torque.total", summed(times_s, torque, start_n_m_s)),
+        let momentum = table.vectors(MOMENTUM);
+        let (from, gathered_n_m_s) = match (table.vectors(TORQUE), momentum, dumps) {
+            (Some(torque), momentum, _) => {
+                let start_n_m_s = momentum.map_or_else(Vector3::zeros, |rows| rows[0]);
+                ("torque.total", summed(times_s, &torque, start_n_m_s))
+            }
             (None, Some(momentum), Some(dumps)) => {
-                ("momentum.body and dump.count", without_dumps(momentum, dumps))
+                ("momentum.body and dump.count", without_dumps(&momentum, dumps))
             }
             _ => {
                 return Err(table.misses(
@@ -176,7 +180,7 @@ impl Mission {
         let limits = HELD.map(|axis| threshold_n_m_s[axis]);
         let day = |row: usize| (self.times_s[row] - self.times_s[0]) / DAY_S;
         let leaves = |axis: usize| {
-            let out = |gathered: &[f64; 3]| gathered[axis].abs() > threshold_n_m_s[axis];
+            let out = |gathered: &Vector3<f64>| gathered[axis].abs() > threshold_n_m_s[axis];
             self.gathered_n_m_s.iter().position(out)
         };
         let unmanaged = HELD.into_iter().filter_map(leaves).min();
@@ -186,8 +190,8 @@ impl Mission {
             if managed_d.is_some() {
                 break;
             }
-            let (before, now) = (&self.gathered_n_m_s[row - 1], &self.gathered_n_m_s[row]);
-            let gained = HELD.map(|axis| now[axis] - before[axis]);
+            let change_n_m_s = self.gathered_n_m_s[row] - self.gathered_n_m_s[row - 1];
+            let gained = HELD.map(|axis| change_n_m_s[axis]);
             let step_s = self.times_s[row] - self.times_s[row - 1];
             let added = added_n_m.scaled(self.light(row, at_m) * step_s, gained);
             reached = reached.plus(&added).within(limits);
@@ -200,37 +204,33 @@ impl Mission {
 }
 
 /// Torque over time by the trapezoid rule.
-fn summed(times_s: &[f64], torque_n_m: [&Vec<f64>; 3], start_n_m_s: [f64; 3]) -> Vec<[f64; 3]> {
+fn summed(times_s: &[f64], torque_n_m: &[Vector3<f64>], start_n_m_s: Vector3<f64>) -> Vec<Vector3<f64>> {
     let mut at = start_n_m_s;
     let mut gathered = vec![at];
     for row in 1..times_s.len() {
-        let step_s = times_s[row] - times_s[row - 1];
-        for (at, torque_n_m) in at.iter_mut().zip(torque_n_m) {
-            *at += 0.5 * (torque_n_m[row - 1] + torque_n_m[row]) * step_s;
-        }
+        let mean_n_m = (torque_n_m[row - 1] + torque_n_m[row]) * 0.5;
+        at += mean_n_m * (times_s[row] - times_s[row - 1]);
         gathered.push(at);
     }
     gathered
 }
 
 /// Momentum with the change of a row with a dump replaced by the mean of its neighbours' without one.
-fn without_dumps(momentum_n_m_s: [&Vec<f64>; 3], dumps: &[f64]) -> Vec<[f64; 3]> {
+fn without_dumps(momentum_n_m_s: &[Vector3<f64>], dumps: &[f64]) -> Vec<Vector3<f64>> {
     let has_dump = |row: usize| dumps[row] != dumps[row - 1];
-    let change = |row: usize| momentum_n_m_s.map(|column| column[row] - column[row - 1]);
+    let change = |row: usize| momentum_n_m_s[row] - momentum_n_m_s[row - 1];
     let rows = dumps.len();
-    let mut at = momentum_n_m_s.map(|column| column[0]);
+    let mut at = momentum_n_m_s[0];
     let mut gathered = vec![at];
     for row in 1..rows {
         let gained = if has_dump(row) {
             let before = (1..row).rev().find(|row| !has_dump(*row)).map(change);
             let after = (row + 1..rows).find(|row| !has_dump(*row)).map(change);
-            let (before, after) =
-                (before.or(after).unwrap_or([0.0; 3]), after.or(before).unwrap_or([0.0; 3]));
-            [0, 1, 2].map(|axis| 0.5 * (before[axis] + after[axis]))
+            (before.or(after).unwrap_or_default() + after.or(before).unwrap_or_default()) * 0.5
         } else {
             change(row)
         };
-        at = [0, 1, 2].map(|axis| at[axis] + gained[axis]);
+        at += gained;
         gathered.push(at);
     }
     gathered

@@ -7,7 +7,7 @@
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, SymmetricEigen, Vector3};
 
 use super::{
-    cell::{At, Cell, cell, guard_shares, instants},
+    cell::{At, Cell, cell, instants},
     relaxed::departures_n_m,
     simulated::{FlightRow, MomentumSize, SAME_S, SimulatedFlight},
     target::{Target, Targeting},
@@ -42,7 +42,9 @@ impl Limit {
 
 /// A flight with windows, linear in their controls.
 #[derive(Clone, Debug)]
-pub(super) struct Model {
+pub(super) struct Model<'a> {
+    /// Spacecraft in sunlight.
+    pub sunlit: &'a SunlitSpacecraft,
     /// Geometry, with rows at all edges.
     pub simulated: SimulatedFlight,
     /// The windows.
@@ -67,10 +69,10 @@ pub(super) struct Model {
     pub departures_n_m: Vec<Vector3<f64>>,
 }
 
-impl Model {
+impl<'a> Model<'a> {
     /// About the controls of the windows.
     pub(super) fn new(
-        sunlit: &SunlitSpacecraft,
+        sunlit: &'a SunlitSpacecraft,
         simulated: SimulatedFlight,
         windows: Vec<Window>,
         limit: Limit,
@@ -78,6 +80,7 @@ impl Model {
         let edges_s: Vec<f64> = windows.iter().flat_map(Window::edges_s).collect();
         let simulated = simulated.with_rows_at(&edges_s);
         let mut model = Self {
+            sunlit,
             corrections: vec![Vector3::zeros(); simulated.rows.len().saturating_sub(1)],
             simulated,
             windows,
@@ -90,7 +93,7 @@ impl Model {
             between: Vec::new(),
             departures_n_m: Vec::new(),
         };
-        model.linearise(sunlit);
+        model.linearise();
         model.instants = instants(&model.cells, &model.windows, &model.simulated.rows);
         model.between = vec![0.0; model.instants.len()];
         model
@@ -98,12 +101,7 @@ impl Model {
 
     /// With a target of the plan, where the flight had an encounter; `own` is that flight in windows of the mission's own controls, where
     /// they are known.
-    pub(super) fn set_target(
-        &mut self,
-        sunlit: &SunlitSpacecraft,
-        target: Option<Target>,
-        own: Option<Vec<Window>>,
-    ) {
+    pub(super) fn set_target(&mut self, target: Option<Target>, own: Option<Vec<Window>>) {
         let encountered = self.simulated.encountered.clone();
         self.targeting = target.zip(encountered).map(|(target, encountered)| Targeting {
             target,
@@ -112,11 +110,11 @@ impl Model {
         });
         // From their own first time on.
         self.cells.clear();
-        self.linearise(sunlit);
+        self.linearise();
         // The flight of the mission had its own arrays and attitudes.
         let simulated = match own {
-            Some(windows) => self.moves_by(sunlit, windows),
-            None => self.recorded_moves(sunlit),
+            Some(windows) => self.moves_by(windows),
+            None => self.recorded_moves(),
         };
         if let Some(targeting) = &mut self.targeting {
             targeting.simulated = simulated;
@@ -125,26 +123,26 @@ impl Model {
 
     /// Returns the change of the target by sunlight in the mission's own windows, where they are not frozen. Its controls jump between
     /// rows and at them, and a row has one side of a jump alone: the mean of two rows would be off by half of the jump.
-    fn moves_by(&self, sunlit: &SunlitSpacecraft, windows: Vec<Window>) -> Vector3<f64> {
+    fn moves_by(&self, windows: Vec<Window>) -> Vector3<f64> {
         if self.targeting.is_none() {
             return Vector3::zeros();
         }
         // The mission alternates in contacts too.
         let windows = windows.into_iter();
         let windows = windows.map(|it| Window { free_of_contact: vec![[it.start_s, it.stop_s]], ..it });
-        let mut own = Self::new(sunlit, self.simulated.clone(), windows.collect(), self.limit.clone());
+        let mut own = Self::new(self.sunlit, self.simulated.clone(), windows.collect(), self.limit.clone());
         own.targeting.clone_from(&self.targeting);
         own.cells.clear();
-        own.linearise(sunlit);
+        own.linearise();
         own.moves()
     }
 
     /// Returns the change of the target by sunlight as it was recorded, where windows are not frozen.
-    fn recorded_moves(&self, sunlit: &SunlitSpacecraft) -> Vector3<f64> {
+    fn recorded_moves(&self) -> Vector3<f64> {
         let Some(targeting) = &self.targeting else { return Vector3::zeros() };
         let rows = self.simulated.rows.iter();
         let rates: Vec<_> = rows
-            .map(|row| targeting.by_impulse(sunlit, row) * sunlit.simulated(row).normal.force_n)
+            .map(|row| targeting.by_impulse(self.sunlit, row) * self.sunlit.simulated(row).normal.force_n)
             .collect();
         let cells = self.cells.iter().enumerate();
         let free = cells.filter(|(_, cell)| self.windows[cell.window].kind != WindowKind::Frozen);
@@ -166,8 +164,8 @@ impl Model {
     }
 
     /// Anew about the present controls.
-    pub(super) fn linearise(&mut self, sunlit: &SunlitSpacecraft) {
-        let rows = &self.simulated.rows;
+    pub(super) fn linearise(&mut self) {
+        let (sunlit, rows) = (self.sunlit, &self.simulated.rows);
         let mut cells = Vec::with_capacity(rows.len());
         let mut window = 0;
         // The end of a cell is the beginning of the next one in the same window.
@@ -208,7 +206,7 @@ impl Model {
     }
 
     /// Takes a share of what a flight of the present controls gained beyond the model, and how it missed the target.
-    pub(super) fn take(&mut self, sunlit: &SunlitSpacecraft, flight: &SimulatedFlight, share: f64) {
+    pub(super) fn take(&mut self, flight: &SimulatedFlight, share: f64) {
         let momentum = |row: &FlightRow| flight.momentum_n_m_s(row.time_s);
         let count_at = |time_s: f64| {
             let after = flight.rows.partition_point(|row| row.time_s <= time_s + SAME_S);
@@ -224,7 +222,7 @@ impl Model {
         }
         if let (Some(targeting), Some(encountered)) = (&mut self.targeting, &flight.encountered) {
             targeting.encountered = encountered.clone();
-            self.linearise(sunlit);
+            self.linearise();
             let simulated = self.moves();
             if let Some(targeting) = &mut self.targeting {
                 targeting.simulated = simulated;
@@ -301,10 +299,26 @@ impl Model {
         all.fold(least, |worst, (row, over)| if over > worst.0 { (over, row) } else { worst })
     }
 
-    /// Share of a guard that is left at every row.
+    /// Share of a guard that is left at every row: nothing while the flight is as the mission has it, growing to all over the first
+    /// window that a plan moves, for what it cannot know grows with it; all behind a planned dump.
     pub(super) fn guard_shares(&self) -> Vec<f64> {
-        let is_dump = |row: usize| self.dumps.iter().any(|(at, _)| *at == row);
-        guard_shares(&self.cells, &self.windows, &self.simulated.rows, is_dump)
+        let rows = &self.simulated.rows;
+        let mut shares = vec![0.0];
+        let mut share: f64 = 0.0;
+        for (index, cell) in self.cells.iter().enumerate() {
+            let window = &self.windows[cell.window];
+            if self.dumps.iter().any(|(row, _)| *row == index) {
+                share = 1.0;
+            }
+            if cell.reset.is_some() {
+                share = 0.0;
+            } else if window.kind != WindowKind::Frozen {
+                let duration_s = rows[index + 1].time_s - rows[index].time_s;
+                share = (share + duration_s / window.length_s().max(SAME_S)).min(1.0);
+            }
+            shares.push(share);
+        }
+        shares
     }
 
     /// Looks at how far |H| goes between the instants.
@@ -325,8 +339,8 @@ impl Model {
     }
 
     /// Looks at what the model leaves out about the present controls.
-    pub(super) fn look_at_departures(&mut self, sunlit: &SunlitSpacecraft) {
-        self.departures_n_m = departures_n_m(sunlit, &self.simulated, &self.windows);
+    pub(super) fn look_at_departures(&mut self) {
+        self.departures_n_m = departures_n_m(self.sunlit, &self.simulated, &self.windows);
     }
 }
 

@@ -13,8 +13,8 @@ use physics::constants::DAY_S;
 
 pub(super) use super::planned::greatest_n_m_s;
 pub use super::planned::{
-    AGREED, Exceeded, Least, MomentumPlan, PlanError, PlanTask, PlannedDump, PlannedRow, Simulates,
-    body_momentum_n_m_s,
+    AGREED, Exceeded, Least, MomentumPlan, PlanError, PlanProblem, PlanTask, PlannedDump, PlannedRow,
+    Simulates,
 };
 use super::{
     as_it_is::{are_allowed, array_changes, is_better, may_stay, own_windows},
@@ -25,7 +25,6 @@ use super::{
     model::Model,
     program::{GUARD, Goal, Program, Solution, WHOLE},
     simulated::{MomentumSize, SAME_S, SimulatedFlight},
-    torque::SunlitSpacecraft,
     windows::Window,
 };
 
@@ -46,7 +45,7 @@ const LITTLE: [f64; 3] = [0.05, 0.15, 0.5];
 const TAKEN: f64 = 1e-4;
 
 /// Gives every window the controls of a solution, and every dump its momentum.
-pub(super) fn give(model: &mut Model, leaders: &[usize], solution: &Solution) {
+pub(super) fn give(model: &mut Model<'_>, leaders: &[usize], solution: &Solution) {
     for number in 0..model.windows.len() {
         let mut controls = Controls::default();
         for control in ALL {
@@ -71,15 +70,14 @@ fn merit(program: &Program, controls: &[f64], excess_n_m_s: f64, goal: Goal) -> 
 ///
 /// A trust region: an answer is taken where the model about it is better by the merit, and the range narrows where it is not.
 pub(super) fn refine(
-    model: &mut Model,
-    sunlit: &SunlitSpacecraft,
+    model: &mut Model<'_>,
     leaders: &[usize],
     (goal, mut trust): (Goal, f64),
     simulates: &mut dyn Simulates,
 ) -> Result<bool, PlanError> {
     let limit = model.limit.momentum_n_m_s;
     // What instants leave, rows between them may use in part.
-    let exceeded = |model: &Model| model.excess_beyond_n_m_s(0.5 * GUARD).0;
+    let exceeded = |model: &Model<'_>| model.excess_beyond_n_m_s(0.5 * GUARD).0;
     model.look_between();
     let mut merit_now = f64::INFINITY;
     for step in 0..MAX_STEPS {
@@ -98,7 +96,7 @@ pub(super) fn refine(
         };
         let mut next = model.clone();
         give(&mut next, leaders, &solution);
-        next.linearise(sunlit);
+        next.linearise();
         next.look_between();
         let found = merit(&program, &solution.controls, exceeded(&next), goal);
         let predicted = merit(&program, &solution.controls, solution.excess, goal);
@@ -136,8 +134,7 @@ struct Structure {
 
 /// Counts dumps and changes about the model and sets its controls by them; returns whether these keep the limits.
 fn structure(
-    model: &mut Model,
-    sunlit: &SunlitSpacecraft,
+    model: &mut Model<'_>,
     task: &PlanTask,
     simulates: &mut dyn Simulates,
 ) -> Result<(Structure, bool), PlanError> {
@@ -145,26 +142,26 @@ fn structure(
     let goal = task.least.goal();
     let (mut dumps_at_least, mut exceeded) = (0, None);
     let start = model.windows.clone();
-    if !refine(model, sunlit, &single, (goal, WHOLE), simulates)? {
+    if !refine(model, &single, (goal, WHOLE), simulates)? {
         // Another way: from the start again, as far below the limit as it goes.
         let first = (model.excess_n_m_s().0, model.windows.clone());
         model.windows = start;
-        model.linearise(sunlit);
-        if !refine(model, sunlit, &single, (Goal::LeastExcess, WHOLE), simulates)? {
+        model.linearise();
+        if !refine(model, &single, (Goal::LeastExcess, WHOLE), simulates)? {
             if first.0 < model.excess_n_m_s().0 {
                 model.windows = first.1;
-                model.linearise(sunlit);
+                model.linearise();
             }
             // A target that is missed needs no dump.
             let mut alone = model.clone();
             if task.target.is_some() {
-                alone.set_target(sunlit, None, None);
-                refine(&mut alone, sunlit, &single, (Goal::LeastExcess, WHOLE), simulates)?;
+                alone.set_target(None, None);
+                refine(&mut alone, &single, (Goal::LeastExcess, WHOLE), simulates)?;
             }
             let excess_n_m_s = alone.excess_n_m_s().0;
             if excess_n_m_s > 0.0 {
                 simulates.progress("dumps");
-                alone.look_at_departures(sunlit);
+                alone.look_at_departures();
                 let found = counted::fewest_dumps(&alone, GUARD, &mut || simulates.progress("dumps"));
                 let Some(found) = found else {
                     let (_, row) = alone.excess_n_m_s();
@@ -183,11 +180,11 @@ fn structure(
                     exceeded = Some(Exceeded { excess_n_m_s, first_s });
                 }
                 model.dumps = found.rows.into_iter().map(|row| (row, Vector3::zeros())).collect();
-                refine(model, sunlit, &single, (goal, WHOLE), simulates)?;
+                refine(model, &single, (goal, WHOLE), simulates)?;
             }
         }
     }
-    model.look_at_departures(sunlit);
+    model.look_at_departures();
     let until = Instant::now() + Duration::from_secs_f64(task.budget_s.clamp(0.0, 1e6));
     let mut at_least = None;
     // Linear programmes count too few changes over wide ranges: count again in narrower ones about controls that keep the limits.
@@ -198,7 +195,7 @@ fn structure(
         let Some(groups) = groups else { break };
         let at_least = *at_least.get_or_insert(groups.at_least);
         let mut grouped = model.clone();
-        if refine(&mut grouped, sunlit, &groups.leaders, (goal, WHOLE), simulates)? {
+        if refine(&mut grouped, &groups.leaders, (goal, WHOLE), simulates)? {
             *model = grouped;
             return Ok((Structure { groups: Groups { at_least, ..groups }, dumps_at_least, exceeded }, true));
         }
@@ -212,15 +209,10 @@ fn structure(
 ///
 /// # Errors
 /// A corridor without an offset, a flight that fails, a programme without an answer.
-pub fn plan(
-    task: &PlanTask,
-    sunlit: &SunlitSpacecraft,
-    simulated: &SimulatedFlight,
-    simulates: &mut dyn Simulates,
-) -> Result<MomentumPlan, PlanError> {
-    let laid_out = task.layout.windows(sunlit, simulated).map_err(PlanError::Corridor)?;
-    let own = as_it_is(task, sunlit, simulated, simulates)?;
-    let found = searched(task, sunlit, (simulated, laid_out), simulates);
+pub fn plan(problem: &PlanProblem<'_>, simulates: &mut dyn Simulates) -> Result<MomentumPlan, PlanError> {
+    let laid_out = problem.windows()?;
+    let own = as_it_is(problem, simulates)?;
+    let found = searched(problem, laid_out, simulates);
     match (own, found) {
         (None, found) => found,
         (Some(own), Err(PlanError::Programme(_))) => Ok(own),
@@ -232,7 +224,7 @@ pub fn plan(
                 found.changes_at_least.min(own.changes),
                 found.rounds + own.rounds,
             ];
-            let best = if is_better(&own, &found, task) { own } else { found };
+            let best = if is_better(&own, &found, problem.task) { own } else { found };
             Ok(MomentumPlan { dumps_at_least, changes_at_least, rounds, ..best })
         }
     }
@@ -240,21 +232,20 @@ pub fn plan(
 
 /// The mission as it is, where it keeps the bounds of the plan and its flight the limit.
 fn as_it_is(
-    task: &PlanTask,
-    sunlit: &SunlitSpacecraft,
-    simulated: &SimulatedFlight,
+    problem: &PlanProblem<'_>,
     simulates: &mut dyn Simulates,
 ) -> Result<Option<MomentumPlan>, PlanError> {
+    let PlanProblem { task, simulated, .. } = *problem;
     let limit = &task.limit;
     if simulated.greatest(limit.size).0 > limit.kept_n_m_s() {
         return Ok(None);
     }
-    let own = own_windows(&task.layout, sunlit, simulated);
+    let own = own_windows(problem);
     let Some(windows) = own.filter(|own| are_allowed(&task.layout, own, simulated)) else { return Ok(None) };
     simulates.progress("flight");
     let flight = simulates.simulate(&windows, &[]).map_err(PlanError::Flight)?;
-    let mut model = Model::new(sunlit, simulated.clone(), windows, limit.clone());
-    model.take(sunlit, &flight, 1.0);
+    let mut model = problem.model(windows);
+    model.take(&flight, 1.0);
     let mut baseline: Vec<OffsetStep> = Vec::new();
     for window in model.windows.iter().filter(|it| it.has_arrays()) {
         let step = OffsetStep { at_s: window.start_s, offset_rad: window.baseline_rad.abs() };
@@ -271,7 +262,7 @@ fn as_it_is(
 /// A plan with its flight, its dumps and the number of flights so far.
 fn flown(
     task: &PlanTask,
-    model: &Model,
+    model: &Model<'_>,
     (baseline, counts): (Vec<OffsetStep>, &Structure),
     (flight, dumps, rounds): (SimulatedFlight, Vec<PlannedDump>, usize),
 ) -> MomentumPlan {
@@ -301,26 +292,25 @@ fn flown(
 
 /// The best plan that a search finds in windows on their baseline.
 fn searched(
-    task: &PlanTask,
-    sunlit: &SunlitSpacecraft,
-    (simulated, (windows, baseline)): (&SimulatedFlight, (Vec<Window>, Vec<OffsetStep>)),
+    problem: &PlanProblem<'_>,
+    (windows, baseline): (Vec<Window>, Vec<OffsetStep>),
     simulates: &mut dyn Simulates,
 ) -> Result<MomentumPlan, PlanError> {
-    let mut model = Model::new(sunlit, simulated.clone(), windows, task.limit.clone());
-    model.set_target(sunlit, task.target, own_windows(&task.layout, sunlit, simulated));
+    let task = problem.task;
+    let mut model = problem.model(windows);
+    model.set_target(task.target, own_windows(problem));
     let mut counts: Option<Structure> = None;
     let mut best: Option<MomentumPlan> = None;
     let (mut rounds, mut off_before_n_m_s) = (0, f64::INFINITY);
     loop {
         rounds += 1;
         let (found, kept) = match counts.take() {
-            None => structure(&mut model, sunlit, task, simulates)?,
+            None => structure(&mut model, task, simulates)?,
             Some(found) => {
                 let mut kept = false;
                 for trust in LITTLE {
                     let goal = task.least.goal();
-                    kept =
-                        kept || refine(&mut model, sunlit, &found.groups.leaders, (goal, trust), simulates)?;
+                    kept = kept || refine(&mut model, &found.groups.leaders, (goal, trust), simulates)?;
                 }
                 (found, kept)
             }
@@ -346,7 +336,7 @@ fn searched(
         best = Some(best_now);
         let share = if off_n_m_s > 0.5 * off_before_n_m_s { DAMPED } else { 1.0 };
         off_before_n_m_s = off_n_m_s;
-        model.take(sunlit, &flight, share);
+        model.take(&flight, share);
         model.look_between();
         if kept {
             counts = Some(found);
@@ -357,7 +347,7 @@ fn searched(
     }
 }
 
-fn rows(model: &Model, flight: &SimulatedFlight) -> Vec<PlannedRow> {
+fn rows(model: &Model<'_>, flight: &SimulatedFlight) -> Vec<PlannedRow> {
     let (momentum, allowed) = (model.momentum_n_m_s(), model.allowed_n_m_s());
     let size: MomentumSize = model.limit.size;
     let is_at_dump = |time_s: f64| {

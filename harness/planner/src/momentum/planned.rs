@@ -5,7 +5,7 @@ use physics::momentum::Convention;
 
 use super::{
     baseline::{NoOffset, OffsetStep},
-    model::Limit,
+    model::{Limit, Model},
     program::Goal,
     simulated::SimulatedFlight,
     target::Target,
@@ -50,6 +50,42 @@ pub struct PlanTask {
     pub budget_s: f64,
     /// Aim of the flight; without effect where it has no encounter.
     pub target: Option<Target>,
+}
+
+/// A mission to plan.
+#[derive(Clone, Copy, Debug)]
+pub struct PlanProblem<'a> {
+    /// Task of the plan.
+    pub task: &'a PlanTask,
+    /// Spacecraft in sunlight.
+    pub sunlit: &'a SunlitSpacecraft,
+    /// Flight of the mission as it is.
+    pub simulated: &'a SimulatedFlight,
+}
+
+impl<'a> PlanProblem<'a> {
+    /// Windows of the plan and their baseline.
+    pub(super) fn windows(&self) -> Result<(Vec<Window>, Vec<OffsetStep>), PlanError> {
+        self.task.layout.windows(self.sunlit, self.simulated).map_err(PlanError::Corridor)
+    }
+
+    /// Linear model of the flight with windows.
+    pub(super) fn model(&self, windows: Vec<Window>) -> Model<'a> {
+        Model::new(self.sunlit, self.simulated.clone(), windows, self.task.limit.clone())
+    }
+
+    /// Returns the momentum after a dump of these windows in the body frame, in N m s.
+    pub fn body_momentum_n_m_s(&self, windows: &[Window], dump: &PlannedDump) -> Vector3<f64> {
+        if self.sunlit.convention == Convention::BodyIntegral {
+            return dump.after_n_m_s;
+        }
+        let Some(row) = self.simulated.at(dump.at_s) else { return dump.after_n_m_s };
+        let holds = |window: &&Window| window.start_s <= dump.at_s && window.stop_s > dump.at_s;
+        let window = windows.iter().find(holds);
+        let inertial_from_body = window
+            .map_or(row.inertial_from_body, |window| window.inertial_from_body(self.sunlit, &row, dump.at_s));
+        inertial_from_body.inverse() * dump.after_n_m_s
+    }
 }
 
 /// A dump of the plan.
@@ -131,24 +167,6 @@ impl MomentumPlan {
     pub fn difference_n_m_s(&self) -> f64 {
         self.rows.iter().map(|row| row.difference_n_m_s).fold(0.0, f64::max)
     }
-}
-
-/// Momentum after a dump in the body frame as it stands then, in N m s.
-pub fn body_momentum_n_m_s(
-    sunlit: &SunlitSpacecraft,
-    simulated: &SimulatedFlight,
-    windows: &[Window],
-    dump: &PlannedDump,
-) -> Vector3<f64> {
-    if sunlit.convention == Convention::BodyIntegral {
-        return dump.after_n_m_s;
-    }
-    let Some(row) = simulated.at(dump.at_s) else { return dump.after_n_m_s };
-    let holds = |window: &&Window| window.start_s <= dump.at_s && window.stop_s > dump.at_s;
-    let window = windows.iter().find(holds);
-    let inertial_from_body =
-        window.map_or(row.inertial_from_body, |window| window.inertial_from_body(sunlit, &row, dump.at_s));
-    inertial_from_body.inverse() * dump.after_n_m_s
 }
 
 /// Why there is no plan at all.

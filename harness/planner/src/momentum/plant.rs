@@ -32,7 +32,8 @@ impl<'a> StartValues<'a> {
     }
 
     /// Value of a Real, or `other` where there is none.
-    fn real_or(&self, name: &str, other: f64) -> f64 {
+    /// A number, or another one where there is none.
+    pub fn real_or(&self, name: &str, other: f64) -> f64 {
         start_values::start(self.description, self.sets, name).map_or(other, |value| value.to_f64())
     }
 
@@ -58,14 +59,6 @@ impl<'a> StartValues<'a> {
             false => [f64::INFINITY; 2],
         }
     }
-}
-
-/// The spacecraft of a file's text.
-///
-/// # Errors
-/// What is wrong in it.
-pub fn spacecraft(file: &str, text: &str) -> Result<Spacecraft, String> {
-    Spacecraft::from_toml(file, text).map_err(|error| error.to_string())
 }
 
 /// The spacecraft in sunlight with these values.
@@ -106,16 +99,15 @@ pub fn sunlit(
             sunlit.set_material(place, &material);
         }
     }
-    let panels = sunlit.panels.iter_mut().zip(&mut sunlit.followed_suns).zip(&mut sunlit.panel_biases_rad);
-    for (index, (((enabled, sign), suns), bias_rad)) in panels.enumerate() {
+    for (index, panel) in sunlit.panels.iter_mut().enumerate() {
         let name = |last: &str| format!("panel[{}].{last}", index + 1);
         let follows = values.item(&name("control")) == Some("distance");
-        *suns = follows.then(|| values.real("articulation.targetSuns"));
-        *enabled = values.is_true(&name("enabled"));
-        *bias_rad = values.real_or(&name("angleBias"), 0.0);
+        panel.followed_suns = follows.then(|| values.real("articulation.targetSuns"));
+        panel.is_enabled = values.is_true(&name("enabled"));
+        panel.tilt.bias_rad = values.real_or(&name("angleBias"), 0.0);
         match values.item(&name("tilt")) {
-            Some("positive") => *sign = 1.0,
-            Some("negative") => *sign = -1.0,
+            Some("positive") => panel.tilt.sign = 1.0,
+            Some("negative") => panel.tilt.sign = -1.0,
             _ => {}
         }
     }

@@ -31,8 +31,8 @@ pub struct Target {
 impl Target {
     /// Whether a miss is within the tolerances.
     pub fn is_met(&self, miss: &Vector3<f64>) -> bool {
-        let all = self.tolerance.iter().zip(miss.iter());
-        all.clone().all(|(tolerance, miss)| tolerance.is_none_or(|tolerance| miss.abs() <= tolerance))
+        let mut all = self.tolerance.iter().zip(miss);
+        all.all(|(tolerance, miss)| tolerance.is_none_or(|tolerance| miss.abs() <= tolerance))
     }
 
     /// Rows of a programme for a miss that is linear in the controls; `limit_n_m_s` is that of the momentum.

@@ -16,11 +16,11 @@ use physics::{
     plant::{PanelSetting, Ramp, SunLight, SunlitConfiguration, Tilt},
     radiation::{Beam, SolarModel},
     refusal::Refusal,
-    spacecraft::{MassProperties, Material, Spacecraft, SunshadeModel},
+    spacecraft::{MassProperties, Material, Panel, Spacecraft, SunshadeModel},
 };
 
 use super::{
-    controls::{Control, Controls, PLACE},
+    controls::{ARRAYS, Control, Controls, PLACE},
     linear_torque::{LinearLoad, LinearTorque},
     simulated::FlightRow,
 };
@@ -37,6 +37,25 @@ pub enum Attitude {
     Downlink,
 }
 
+/// A panel as its mission has it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SunlitPanel {
+    /// Whether it takes part.
+    pub is_enabled: bool,
+    /// Side of the windmill, as in the spacecraft's file.
+    pub windmill_side: f64,
+    /// Tilt about its axis.
+    pub tilt: Tilt,
+    /// Light on its cells that it is turned for as the distance from the Sun changes, in suns, where it is.
+    pub followed_suns: Option<f64>,
+}
+
+impl SunlitPanel {
+    fn setting(&self, own: PanelSetting) -> PanelSetting {
+        if self.is_enabled { own } else { PanelSetting::Disabled }
+    }
+}
+
 /// A spacecraft in sunlight as its mission has it.
 #[derive(Clone, Debug)]
 pub struct SunlitSpacecraft {
@@ -48,12 +67,8 @@ pub struct SunlitSpacecraft {
     pub current_mass_panels_stowed: MassProperties,
     /// Centres of mass by the time from which on they count, in s, body frame, in m; before the first that of `current_mass_panels_stowed`.
     pub centers_of_mass: Vec<(f64, Vector3<f64>)>,
-    /// Whether each panel takes part, and the sense of its tilt.
-    pub panels: Vec<(bool, f64)>,
-    /// Angle added to that of each panel about its axis, in rad.
-    pub panel_biases_rad: Vec<f64>,
-    /// The light on its cells that each panel is turned for as the distance from the Sun changes, in suns, where it is.
-    pub followed_suns: Vec<Option<f64>>,
+    /// Panels.
+    pub panels: Vec<SunlitPanel>,
     /// Frame of the torques: EME2000, or, where the body components are integrated, the body frame.
     pub convention: Convention,
     solar: SolarModel,
@@ -70,13 +85,17 @@ impl SunlitSpacecraft {
         light: SunLight,
         sunshade: Option<SunshadeModel>,
     ) -> Result<Self, Refusal> {
+        let panel = |panel: &Panel| SunlitPanel {
+            is_enabled: true,
+            windmill_side: panel.windmill_side,
+            tilt: panel.tilt_sign.into(),
+            followed_suns: None,
+        };
         Ok(Self {
             solar: SolarModel::new(&spacecraft, sunshade)?,
             antennas: Antennas::new(&spacecraft.antennas),
             current_mass_panels_stowed: spacecraft.mass_properties,
-            panels: spacecraft.panels.iter().map(|panel| (true, panel.tilt_sign)).collect(),
-            panel_biases_rad: vec![0.0; spacecraft.panels.len()],
-            followed_suns: vec![None; spacecraft.panels.len()],
+            panels: spacecraft.panels.iter().map(panel).collect(),
             centers_of_mass: Vec::new(),
             convention: Convention::Inertial,
             light,
@@ -91,8 +110,7 @@ impl SunlitSpacecraft {
 
     /// Sense in which a windmill angle turns each panel that takes part.
     pub fn windmill_sides(&self) -> impl Iterator<Item = f64> + '_ {
-        let panels = self.spacecraft.panels.iter().zip(&self.panels);
-        panels.filter(|(_, (enabled, _))| *enabled).map(|(panel, _)| panel.windmill_side)
+        self.panels.iter().filter(|panel| panel.is_enabled).map(|panel| panel.windmill_side)
     }
 
     fn mass_at(&self, time_s: f64) -> MassProperties {
@@ -133,17 +151,12 @@ impl SunlitSpacecraft {
     }
 
     fn settings(&self, controls: &Controls) -> Vec<PanelSetting> {
-        let panels = self.spacecraft.panels.iter().zip(&self.panels);
-        let setting = |side: f64, tilt_sign: f64| {
-            let offset_rad = controls.get(Control::Offset) + controls.get(Control::Windmill) * side;
-            PanelSetting::SunOffset { offset: Ramp::held(offset_rad), tilt: tilt_sign.into() }
+        let [offset_rad, windmill_rad] = controls.each(ARRAYS);
+        let setting = |panel: &SunlitPanel| {
+            let offset = Ramp::held(offset_rad + windmill_rad * panel.windmill_side);
+            panel.setting(PanelSetting::SunOffset { offset, tilt: panel.tilt })
         };
-        let one = |(panel, (enabled, tilt_sign)): (&physics::spacecraft::Panel, &(bool, f64))| match enabled {
-            true => setting(panel.windmill_side, *tilt_sign),
-            false => PanelSetting::Disabled,
-        };
-        let biased = |(setting, added_rad): (PanelSetting, &f64)| setting.biased(*added_rad);
-        panels.map(one).zip(&self.panel_biases_rad).map(biased).collect()
+        self.panels.iter().map(setting).collect()
     }
 
     /// Force in EME2000 and torque about the centre of mass of direct sunlight, in N and N m.
@@ -185,18 +198,16 @@ impl SunlitSpacecraft {
 
     /// Change of the force with the distance from the Sun by panels that follow it, at the same pressure, EME2000, in N/m.
     pub fn force_by_distance_n_m(&self, row: &FlightRow) -> Vector3<f64> {
-        if self.followed_suns.iter().all(Option::is_none) {
+        if self.panels.iter().all(|panel| panel.followed_suns.is_none()) {
             return Vector3::zeros();
         }
-        let settings: Vec<_> = (self.panels.iter().zip(&self.panel_biases_rad))
-            .zip(&self.followed_suns)
-            .zip(&row.panel_angles_rad)
-            .map(|(((&(enabled, tilt_sign), &bias_rad), suns), angle_rad)| match *suns {
-                _ if !enabled => PanelSetting::Disabled,
-                Some(suns) => PanelSetting::Distance { suns, tilt: Tilt { sign: tilt_sign, bias_rad } },
+        let setting = |(panel, angle_rad): (&SunlitPanel, &f64)| {
+            panel.setting(match panel.followed_suns {
+                Some(suns) => PanelSetting::Distance { suns, tilt: panel.tilt },
                 None => PanelSetting::Angle(Ramp::held(*angle_rad)),
             })
-            .collect();
+        };
+        let settings: Vec<_> = self.panels.iter().zip(&row.panel_angles_rad).map(setting).collect();
         let distance_m = row.to_sun_m.norm();
         let sun_body = row.inertial_from_body.inverse() * (row.to_sun_m / distance_m);
         let [high_n, low_n] = [STEP_RAD, -STEP_RAD].map(|step| {
@@ -208,12 +219,10 @@ impl SunlitSpacecraft {
 
     /// Torque of direct sunlight with arrays and attitude as they were simulated; no angle is a control.
     pub fn simulated(&self, row: &FlightRow) -> LinearTorque {
-        let enabled = self.panels.iter().map(|(enabled, _)| *enabled);
-        let angle = |(enabled, angle_rad): (bool, &f64)| match enabled {
-            true => PanelSetting::Angle(Ramp::held(*angle_rad)),
-            false => PanelSetting::Disabled,
+        let setting = |(panel, angle_rad): (&SunlitPanel, &f64)| {
+            panel.setting(PanelSetting::Angle(Ramp::held(*angle_rad)))
         };
-        let settings: Vec<_> = enabled.zip(&row.panel_angles_rad).map(angle).collect();
+        let settings: Vec<_> = self.panels.iter().zip(&row.panel_angles_rad).map(setting).collect();
         let loads = self.load(row, &row.inertial_from_body, &settings);
         self.linear(row, &row.inertial_from_body, loads, [[Vector3::zeros(); 2]; 4])
     }

@@ -20,15 +20,11 @@ pub struct Partials<const R: usize> {
     pub span: Span,
     /// A row a quantity, by time before the end.
     rows: [Segment<6, TERMS>; R],
-    at_start: SMatrix<f64, R, 6>,
+    /// The rows at its start.
+    pub at_start: SMatrix<f64, R, 6>,
 }
 
 impl<const R: usize> Partials<R> {
-    /// By the state at the interval's start.
-    pub fn at_start(&self) -> &SMatrix<f64, R, 6> {
-        &self.at_start
-    }
-
     /// By the state at a time of the interval, s.
     pub fn at(&self, time_s: f64) -> SMatrix<f64, R, 6> {
         let Span { start_s, end_s } = self.span;

@@ -21,11 +21,7 @@ use physics::{
 
 use crate::{
     Failure,
-    momentum::{
-        plant::{self, StartValues},
-        simulated::SimulatedFlight,
-        torque::SunlitSpacecraft,
-    },
+    momentum::{plant, simulated::SimulatedFlight, torque::SunlitSpacecraft},
     simulation::{Flight, Simulation},
 };
 
@@ -40,21 +36,6 @@ const STEP_S: f64 = 3600.0;
 const ORBIT_STEP_S: f64 = 600.0;
 /// A flight whose last row is nearer to its planet came to it: farther than any goes in such a step.
 const NEAR_M: f64 = 1e8;
-
-/// Extent of a mission that is simulated and recorded.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Requested<'a> {
-    /// Values that win over the mission's.
-    pub sets: &'a [(String, Value)],
-    /// Outputs, as `record` of a mission names them.
-    pub outputs: &'a [String],
-    /// Distance of communication points, in s; otherwise the plan's, an hour, in an orbit phase ten minutes.
-    pub step_s: Option<f64>,
-    /// Rows at these times alone, in s, which grow from the start on; otherwise at communication points.
-    pub at_s: Option<&'a [f64]>,
-    /// End, in s, instead of the mission's stop.
-    pub stop_s: Option<f64>,
-}
 
 /// A mission that can be simulated.
 pub(super) struct SimulatedMission {
@@ -178,11 +159,6 @@ impl SimulatedMission {
         self.zero_epoch_s.unwrap_or_else(|| self.values().real("start.epoch") - self.start_s)
     }
 
-    /// Its values at the start.
-    pub(super) fn values(&self) -> StartValues<'_> {
-        StartValues { description: self.fmu.description(), sets: &self.sets }
-    }
-
     /// The least `dump.threshold`, in N m s.
     pub(super) fn least_threshold_n_m_s(&self) -> f64 {
         self.values().vector("dump.threshold").min()
@@ -235,10 +211,10 @@ impl SimulatedMission {
         let panels = (0..).map(plant::panel);
         let panels = panels.take_while(|name| description.variables.iter().any(|it| it.name == *name));
         let panels: Vec<String> = panels.collect();
-        let mut patterns = panels.clone();
-        patterns.extend(plant::recorded(convention).map(str::to_owned));
+        let mut outputs: Vec<&str> = panels.iter().map(String::as_str).collect();
+        outputs.extend(plant::recorded(convention));
         if self.has_encounter() {
-            patterns.extend(plant::RECORDED_MOTION.map(str::to_owned));
+            outputs.extend(plant::RECORDED_MOTION);
         }
         let mut sets = Vec::new();
         if seed.is_none() {
@@ -247,8 +223,8 @@ impl SimulatedMission {
         if let Some(seed) = seed.and_then(|seed| i32::try_from(seed).ok()) {
             sets.push(("noise.seed".to_owned(), Value::Integer(seed)));
         }
-        let requested = Requested { sets: &sets, outputs: &patterns, ..Requested::default() };
-        let (recording, ended) = self.record_until(&requested)?;
+        let flight = Flight { sets: &sets, outputs: &outputs, ..Flight::default() };
+        let (recording, ended) = self.record_until(&flight)?;
         let column = |name: &str| recording.column(name).map(|column| column.numbers());
         let flight = plant::flight(&recording.times_s, &column, (panels.len(), convention));
         let Some(why) = ended else { return Ok(flight?) };
@@ -260,31 +236,20 @@ impl SimulatedMission {
         last.map(|flight| SimulatedFlight { ended: Some(why.clone()), ..flight }).ok_or_else(|| why.into())
     }
 
-    /// Simulates it and gives what was requested.
-    pub(super) fn record(&self, requested: &Requested<'_>) -> Result<Recording, Failure> {
-        match self.record_until(requested)? {
+    /// Records a flight.
+    pub(super) fn record(&self, flight: &Flight<'_>) -> Result<Recording, Failure> {
+        match self.record_until(flight)? {
             (recording, None) => Ok(recording),
             (_, Some(error)) => Err(error.into()),
         }
     }
 
     /// The same of a flight that an error may end: what was recorded until then, and the error.
-    pub(super) fn record_until(
-        &self,
-        requested: &Requested<'_>,
-    ) -> Result<(Recording, Option<String>), Failure> {
-        let step_s = if self.is_in_orbit() { ORBIT_STEP_S } else { STEP_S };
-        let stop_s = requested.stop_s.unwrap_or(self.stop_s);
-        let step_s = requested.step_s.or(self.rows_s).unwrap_or(step_s);
-        let flown = self.fly(&Flight {
-            sets: requested.sets,
-            outputs: requested.outputs,
-            step_s: step_s.min((stop_s - self.start_s) / 8.0),
-            at_s: requested.at_s,
-            stop_s,
-            dumps_apart: true,
-            progress: &|_| (),
-        })?;
+    pub(super) fn record_until(&self, flight: &Flight<'_>) -> Result<(Recording, Option<String>), Failure> {
+        let longest_s = (flight.stop_s.unwrap_or(self.stop_s) - self.start_s) / 8.0;
+        let own_s = if self.is_in_orbit() { ORBIT_STEP_S } else { STEP_S };
+        let step_s = flight.step_s.or(self.rows_s).unwrap_or(own_s).min(longest_s);
+        let flown = self.fly(&Flight { step_s: Some(step_s), dumps_apart: true, ..*flight })?;
         Ok((flown.recording, flown.ended.err()))
     }
 }

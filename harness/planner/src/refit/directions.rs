@@ -1,6 +1,7 @@
 //! Principal directions of what is fitted: what the history determines, and what stays at its prior.
 
 use nalgebra::{Matrix4, SymmetricEigen, Vector4};
+use serde::Serialize;
 
 /// A history determines a direction if it leaves at most this part of the prior's deviation.
 const DETERMINED: f64 = 0.5;
@@ -8,7 +9,7 @@ const DETERMINED: f64 = 0.5;
 const NONE: f64 = 1e-12;
 
 /// A direction in the space of what is fitted, each coordinate in units of its prior's deviation.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Direction {
     /// Unit vector: centre of mass X, Y, Z, and `solar.scale`, the greatest positive.
     pub vector: Vector4<f64>,

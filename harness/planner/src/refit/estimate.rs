@@ -21,12 +21,14 @@ const MAX_STEPS: u32 = 50;
 /// Parts of its deviation that a direction may still move by.
 const CONVERGED: f64 = 1e-3;
 
-/// Rows of the history and priors.
-pub(super) struct Problem<'a> {
+/// History and priors of a fit.
+pub struct Requested<'a> {
+    /// The history.
     pub telemetry: &'a Telemetry,
-    pub arcs: &'a [Range<usize>],
-    pub prior: &'a Parameters,
-    pub deviations: &'a Deviations,
+    /// The mission's values.
+    pub prior: Parameters,
+    /// How sure history and prior are.
+    pub deviations: Deviations,
 }
 
 /// Minimum of the sum of squares.
@@ -35,18 +37,23 @@ pub(super) struct Estimate {
     pub directions: [Direction; 4],
 }
 
-impl Problem<'_> {
-    /// From `start` on.
+impl Requested<'_> {
+    /// From `start` on, with the rows of each arc.
     ///
     /// # Errors
     /// Steps that do not end.
-    pub(super) fn solve(&self, expansion: &Expansion, start: &Parameters) -> Result<Estimate, String> {
+    pub(super) fn solve(
+        &self,
+        arcs: &[Range<usize>],
+        expansion: &Expansion,
+        start: &Parameters,
+    ) -> Result<Estimate, String> {
         let deviations = self.deviations.of_parameters();
         let prior = self.prior.values();
         let mut y = (start.values() - prior).component_div(&deviations);
         for _ in 0..MAX_STEPS {
             let parameters = Parameters::new(&(prior + y.component_mul(&deviations)));
-            let (information, gradient) = self.normal(expansion, &parameters);
+            let (information, gradient) = self.normal(arcs, expansion, &parameters);
             let directions = principal(&information);
             let right = information * y + gradient;
             let determined = directions.iter().filter(|it| it.observable);
@@ -57,7 +64,7 @@ impl Problem<'_> {
             y = next;
             if directions.iter().all(|it| it.vector.dot(&step).abs() <= CONVERGED * it.sigma) {
                 let parameters = Parameters::new(&(prior + y.component_mul(&deviations)));
-                let directions = principal(&self.normal(expansion, &parameters).0);
+                let directions = principal(&self.normal(arcs, expansion, &parameters).0);
                 return Ok(Estimate { parameters, directions });
             }
         }
@@ -68,7 +75,12 @@ impl Problem<'_> {
     }
 
     /// The normal equations about some parameters, in units of noise and priors: J'J and J'r.
-    fn normal(&self, expansion: &Expansion, parameters: &Parameters) -> (Matrix4<f64>, Vector4<f64>) {
+    fn normal(
+        &self,
+        arcs: &[Range<usize>],
+        expansion: &Expansion,
+        parameters: &Parameters,
+    ) -> (Matrix4<f64>, Vector4<f64>) {
         let scales = self.deviations.of_parameters() / self.deviations.noise_n_m_s;
         let rows: Vec<(Vector3<f64>, Matrix3x4<f64>)> = expansion
             .at(parameters)
@@ -78,7 +90,7 @@ impl Problem<'_> {
             })
             .collect();
         let (mut information, mut gradient) = (Matrix4::zeros(), Vector4::zeros());
-        for arc in self.arcs {
+        for arc in arcs {
             let rows = &rows[arc.clone()];
             let share = 1.0 / rows.len() as f64;
             let (mean, mean_by) = rows.iter().fold((Vector3::zeros(), Matrix3x4::zeros()), |sum, row| {

@@ -7,11 +7,11 @@ use serde::Serialize;
 
 use super::{
     directions::Direction,
-    estimate::{Problem, residuals_n_m_s},
+    estimate::{Requested, residuals_n_m_s},
     expansion::{Expansion, FLIGHTS},
     flights::Flights,
     parameters::{Deviations, FITTED, Parameters},
-    telemetry::{MIN_ROWS, Telemetry, arcs},
+    telemetry::{MIN_ROWS, arcs},
 };
 use crate::Failure;
 
@@ -25,16 +25,6 @@ const FAR: f64 = 5.0;
 const MAX_PRIOR_DEVIATIONS: f64 = 6.0;
 /// Flights of one round: an expansion, and one with its result.
 const FLIGHTS_OF_ROUND: u64 = FLIGHTS + 1;
-
-/// History and priors of a fit.
-pub struct Requested<'a> {
-    /// The history.
-    pub telemetry: &'a Telemetry,
-    /// The mission's values.
-    pub prior: Parameters,
-    /// How sure history and prior are.
-    pub deviations: Deviations,
-}
 
 /// A result.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,8 +78,7 @@ pub fn fit(
             )
             .into());
         }
-        let problem = Problem { telemetry, arcs: &arcs, prior, deviations };
-        let estimate = problem.solve(&expansion, &center)?;
+        let estimate = requested.solve(&arcs, &expansion, &center)?;
         let simulated = flights.simulate(&estimate.parameters, &telemetry.times_s)?.momentum_inertial_n_m_s;
         counted();
         let residuals = residuals_n_m_s(telemetry, &arcs, &simulated);
@@ -167,17 +156,10 @@ struct Written<'a> {
     center_of_mass_m: [f64; 3],
     scale: f64,
     covariance: [[f64; 4]; 4],
-    directions: [WrittenDirection; 4],
+    directions: &'a [Direction; 4],
     chi_square: f64,
     degrees_of_freedom: usize,
     trusted: bool,
-}
-
-#[derive(Serialize)]
-struct WrittenDirection {
-    vector: [f64; 4],
-    sigma: f64,
-    observable: bool,
 }
 
 impl Fitted {
@@ -192,11 +174,7 @@ impl Fitted {
             scale: self.parameters.solar_scale,
             // Symmetric, so that rows are columns.
             covariance: self.covariance.into(),
-            directions: self.directions.map(|it| WrittenDirection {
-                vector: it.vector.into(),
-                sigma: it.sigma,
-                observable: it.observable,
-            }),
+            directions: &self.directions,
             chi_square: self.chi_square,
             degrees_of_freedom: self.degrees_of_freedom,
             trusted: self.is_trusted(),

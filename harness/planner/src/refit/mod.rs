@@ -8,9 +8,9 @@ mod flights;
 mod parameters;
 mod telemetry;
 
-pub use crate::Failure;
 pub use directions::Direction;
-pub use fitted::{Fitted, Requested, fit, is_trusted};
+pub use estimate::Requested;
+pub use fitted::{Fitted, fit, is_trusted};
 pub use flights::{Flights, History};
 pub use parameters::{Deviations, FITTED, Parameters};
 pub use telemetry::{MOMENTUM, Telemetry};

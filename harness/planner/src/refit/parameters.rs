@@ -40,7 +40,7 @@ pub struct Deviations {
 
 impl Deviations {
     /// Standard deviations of the parameters, in the order of [`FITTED`].
-    pub(super) fn of_parameters(&self) -> Vector4<f64> {
+    pub fn of_parameters(&self) -> Vector4<f64> {
         Vector3::repeat(self.center_of_mass_m).push(self.solar_scale)
     }
 }

@@ -164,7 +164,7 @@ impl Remembered {
 }
 
 impl Flights for Remembered {
-    fn simulate(&self, parameters: &Parameters, times_s: &[f64]) -> Result<History, super::Failure> {
+    fn simulate(&self, parameters: &Parameters, times_s: &[f64]) -> Result<History, crate::Failure> {
         // Those of the first expansion come again.
         const KEPT: usize = 12;
         if let Some((_, history)) =

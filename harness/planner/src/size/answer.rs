@@ -1,6 +1,6 @@
 //! The answer first: wheels, time without unloading, propellant; and what was assumed for it.
 
-use inputs::{epoch::date, variables::item};
+use inputs::epoch::date;
 use physics::constants::DAY_S;
 use terminal::rounded;
 
@@ -104,7 +104,7 @@ pub(super) fn assumed(sized: &SizedSpacecraft, found: &Found) -> String {
 
 /// The value of a variable nobody set, as the file shows it.
 fn value(sized: &SizedSpacecraft, name: &str) -> String {
-    if let Some(item) = item(sized.simulation.fmu.description(), &sized.simulation.sets, name) {
+    if let Some(item) = sized.simulation.values().item(name) {
         return item.to_owned();
     }
     let read = sized.started().and_then(|mut it| it.get_real(name));

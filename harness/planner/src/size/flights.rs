@@ -26,7 +26,7 @@ const SCALES: [f64; 9] = [1.0, 2.0, 0.5, 1.41, 0.71, 4.0, 0.35, 2.83, 0.25];
 /// Dumps of one flight, scaled to a year.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Dumped {
-    pub strategy: String,
+    pub strategy: &'static str,
     /// By body axis.
     pub threshold_n_m_s: Vector3<f64>,
     pub dumps: f64,
@@ -52,7 +52,7 @@ pub(super) fn undumped(
     let sets = [undumped, others.to_vec()].concat();
     let outputs = ["momentum.*", "attitude.q", "attitude.rate", "torque.total"];
     let shown = |time_s: f64| bar.set_position((time_s - sized.simulation.start_s) as u64);
-    let recording = simulated(sized, &sets, &outputs, &shown);
+    let recording = simulated(sized, &sets, &outputs, Some(&shown));
     bar.finish_and_clear();
     recording
 }
@@ -69,13 +69,13 @@ pub(super) fn sweep(
     let own_n_m_s = if is_never { Vector3::repeat(needed_n_m_s) } else { own_n_m_s };
     let scaled = |scale: f64| own_n_m_s.map(|it| scaled_n_m_s(it, scale));
     let until = Instant::now() + Duration::from_secs_f64(budget_s.clamp(0.0, 1e6));
-    let cases =
-        SCALES.iter().flat_map(|scale| sized.strategies.iter().map(move |strategy| (*scale, strategy)));
+    let strategies = sized.strategies;
+    let cases = SCALES.iter().flat_map(|scale| strategies.iter().map(move |strategy| (*scale, *strategy)));
     let cases: Vec<_> = cases.collect();
     let bar = terminal::progress(cases.len() as u64, "flights", is_quiet);
     let mut sweep = Sweep { dumped: Vec::new(), left_out: 0 };
     for (index, (scale, strategy)) in cases.into_iter().enumerate() {
-        if index >= MIN_THRESHOLDS * sized.strategies.len() && Instant::now() >= until {
+        if index >= MIN_THRESHOLDS * strategies.len() && Instant::now() >= until {
             sweep.left_out += 1;
             continue;
         }
@@ -87,16 +87,20 @@ pub(super) fn sweep(
     Ok(sweep)
 }
 
-fn dumped(sized: &SizedSpacecraft, threshold_n_m_s: Vector3<f64>, strategy: &str) -> Result<Dumped, Failure> {
+fn dumped(
+    sized: &SizedSpacecraft,
+    threshold_n_m_s: Vector3<f64>,
+    strategy: &'static str,
+) -> Result<Dumped, Failure> {
     let outputs = ["dump.count", "dump.impulse", "propellant.used"];
-    let simulated = simulated(sized, &values(sized, threshold_n_m_s, strategy)?, &outputs, &|_| ())?;
+    let simulated = simulated(sized, &values(sized, threshold_n_m_s, strategy)?, &outputs, None)?;
     let count = numbers(&simulated, "dump.count")?;
     let impulses_n_m_s = vectors(&simulated, "dump.impulse")?;
     let dumps = count.windows(2).enumerate().filter(|(_, pair)| pair[1] > pair[0]);
     let impulses_n_m_s = dumps.map(|(k, _)| impulses_n_m_s[k + 1].norm());
     let last = |values: &[f64]| values.last().copied().unwrap_or(0.0);
     Ok(Dumped {
-        strategy: strategy.to_owned(),
+        strategy,
         threshold_n_m_s,
         dumps: sized.per_year(last(&count)),
         impulse_n_m_s: sized.per_year(impulses_n_m_s.sum()),
@@ -130,7 +134,7 @@ fn simulated(
     sized: &SizedSpacecraft,
     sets: &[(String, Value)],
     outputs: &[&str],
-    progress: &dyn Fn(f64),
+    progress: Option<&dyn Fn(f64)>,
 ) -> Result<Recording, Failure> {
     let dumps_apart = outputs.contains(&"dump.count");
     let step_s = if dumps_apart {
@@ -140,9 +144,8 @@ fn simulated(
         // A whole number of steps between unloadings, so that rows end the windows.
         sized.every_s / (sized.every_s / longest_s).ceil()
     };
-    let outputs: Vec<String> = outputs.iter().map(|name| (*name).to_owned()).collect();
-    let stop_s = sized.simulation.start_s + sized.span_s;
-    let flight = Flight { sets, outputs: &outputs, step_s, at_s: None, stop_s, dumps_apart, progress };
+    let (step_s, stop_s) = (Some(step_s), Some(sized.simulation.start_s + sized.span_s));
+    let flight = Flight { sets, outputs, step_s, at_s: None, stop_s, dumps_apart, progress };
     let flown = sized.simulation.fly(&flight)?;
     flown.ended?;
     Ok(flown.recording)

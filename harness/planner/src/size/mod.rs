@@ -69,9 +69,8 @@ fn found(sized: &SizedSpacecraft, arguments: &Size) -> Result<Found, Failure> {
     let demands = Demands::new(sized, &slews, arguments.margin)?;
     let every = |every_s: f64| Unloadings::new(&demands, &flights, every_s, dumping.as_ref().ok());
     let others = [sized.period_s, 7.0 * DAY_S].into_iter().filter(|it| *it != sized.every_s);
-    let others = others.filter_map(every).collect();
-    let unloadings =
-        every(sized.every_s).unwrap_or_else(|| Unloadings::none(&demands, &flights, sized.every_s));
+    let others = others.map(every).filter(|it| !it.years.is_empty()).collect();
+    let unloadings = every(sized.every_s);
     let needed_n_m_s = unloadings.wheels.needed_n_m_s.max();
     Ok(Found {
         sources: flights.first().map_or_else(Vec::new, |it| it.by_source(sized.period_s, sized.every_s)),

@@ -1,6 +1,6 @@
 //! Slews, wheels and thrusters that the mission needs or has, by axis.
 
-use inputs::variables::{NEVER_N_M_S, item};
+use inputs::variables::NEVER_N_M_S;
 use nalgebra::Vector3;
 use packing::instance::vector;
 use physics::{
@@ -87,8 +87,7 @@ impl<'a> Demands<'a> {
         slews: &'a Option<[Slew; 3]>,
         margin: f64,
     ) -> Result<Self, fmi::Error> {
-        let is_opposite = item(sized.simulation.fmu.description(), &sized.simulation.sets, "dump.reinitTo")
-            == Some("opposite");
+        let is_opposite = sized.simulation.values().item("dump.reinitTo") == Some("opposite");
         let room = if is_opposite { 1.0 + sized.started()?.get_real("dump.reinitFraction")? } else { 1.0 };
         Ok(Self { sized, slews, margin, room })
     }

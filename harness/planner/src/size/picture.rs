@@ -16,7 +16,7 @@ pub(super) fn svg(sized: &SizedSpacecraft, sweep: &Sweep) -> Result<Option<Strin
     let of_strategies = |value: fn(&Dumped) -> f64| {
         let lines = sized.strategies.iter().map(move |strategy| {
             let own = sweep.dumped.iter().filter(|it| it.strategy == *strategy);
-            Series::curve(strategy.clone(), own.map(|it| (capacity(sized, it), value(it))).collect())
+            Series::curve(*strategy, own.map(|it| (capacity(sized, it), value(it))).collect())
         });
         lines.collect::<Vec<_>>()
     };

@@ -3,12 +3,7 @@
 use campaign::run::{Run, Simulated};
 use files::Scratch;
 use fmi::{Fmu, Instance, Value};
-use inputs::{
-    kind::FileKind,
-    mission::Inputs,
-    variables::{assigned, item, start},
-};
-use model_description::Description;
+use inputs::{kind::FileKind, mission::Inputs, variables::assigned};
 use nalgebra::Vector3;
 use packing::{
     assembly::{Parts, Source, assemble, spacecraft_of},
@@ -21,7 +16,7 @@ use physics::{
 };
 
 use super::options::Size;
-use crate::{Failure, simulation::Simulation};
+use crate::{Failure, momentum::plant::StartValues, simulation::Simulation};
 
 /// The model that is simulated.
 const MODEL: &str = "MomentumPlant";
@@ -49,7 +44,7 @@ pub(super) struct SizedSpacecraft {
     /// Whether `momentum.*` are integrals of body components.
     pub is_body_integral: bool,
     /// Strategies of unloading by sunlight where there are downlinks, by item; the first is dumps alone.
-    pub strategies: Vec<String>,
+    pub strategies: &'static [&'static str],
 }
 
 /// Packs a file; whether it is a mission with inputs, timeline or ephemeris, which are those of its own time.
@@ -84,16 +79,16 @@ impl SizedSpacecraft {
         let (mut simulation, is_of_its_time) = opened(arguments, &file)?;
         let description = simulation.fmu.description();
         simulation.sets.extend(assigned(description, &arguments.set)?);
-        let Simulation { ref sets, start_s, stop_s, .. } = simulation;
-        check_plant(&file, description, sets)?;
-        let mut started = instance::started(&simulation.fmu, "size", start_s, sets)?;
-        let is_about_sun = item(description, sets, "orbit.center") == Some("sun");
-        let period_s = period_s(is_about_sun, &mut started)?;
+        let Simulation { start_s, stop_s, .. } = simulation;
+        let values = simulation.values();
+        check_plant(&file, &values)?;
+        let mut started = instance::started(&simulation.fmu, "size", start_s, values.sets)?;
+        let period_s = period_s(values.item("orbit.center") == Some("sun"), &mut started)?;
         // As it acts: by default it follows the centre.
         let phase = description.variables.iter().find(|it| it.name == PHASE);
         let phase = phase.map(|it| started.get_variable(it)).transpose()?;
         let phase: Vec<_> = phase.into_iter().map(|value| (PHASE.to_owned(), value)).collect();
-        let is_in_cruise = item(description, &phase, PHASE) == Some("cruise");
+        let is_in_cruise = StartValues { description, sets: &phase }.item(PHASE) == Some("cruise");
         let bias_n_m_s = vector(&mut started, "momentum.bias")?;
         drop(started);
         let span_s = arguments.duration.unwrap_or(stop_s - start_s);
@@ -117,8 +112,8 @@ impl SizedSpacecraft {
             every_s: arguments.every.or(by_file_s).unwrap_or(DAY_S),
             slew: arguments.slew.or(spacecraft.slew),
             bias_n_m_s,
-            is_body_integral: item(description, sets, "momentum.convention") == Some("bodyIntegral"),
-            strategies: strategies(description, sets, period_s, has_fan && !is_in_cruise),
+            is_body_integral: values.item("momentum.convention") == Some("bodyIntegral"),
+            strategies: strategies(&values, period_s, has_fan && !is_in_cruise),
             spacecraft,
             simulation,
         })
@@ -152,9 +147,10 @@ impl SizedSpacecraft {
 }
 
 /// A plant whose momentum is guided; in controlled and free flight a year takes too long.
-fn check_plant(file: &str, description: &Description, sets: &[(String, Value)]) -> Result<(), Failure> {
-    match item(description, sets, "attitude.source") {
-        None => Err(format!("{file}: found the model {}, allowed: {MODEL}", description.model_name).into()),
+fn check_plant(file: &str, values: &StartValues<'_>) -> Result<(), Failure> {
+    let model = &values.description.model_name;
+    match values.item("attitude.source") {
+        None => Err(format!("{file}: found the model {model}, allowed: {MODEL}").into()),
         Some(source @ ("controlled" | "free")) => Err(format!(
             "{file}: attitude.source: found {source}, allowed: guided, commanded (a year of wheels at 50 Hz takes hours): \
              --set attitude.source=guided"
@@ -175,20 +171,14 @@ fn period_s(is_about_sun: bool, instance: &mut Instance) -> Result<f64, fmi::Err
 
 /// Dumps alone, and what sunlight can do where guided flight has downlinks with science between them, of an antenna that is steered
 /// (`can_choose`).
-fn strategies(
-    description: &Description,
-    sets: &[(String, Value)],
-    period_s: f64,
-    can_choose: bool,
-) -> Vec<String> {
-    let number = |name: &str| start(description, sets, name).map_or(0.0, |value| value.to_f64());
+fn strategies(values: &StartValues<'_>, period_s: f64, can_choose: bool) -> &'static [&'static str] {
+    let number = |name: &str| values.real_or(name, 0.0);
     let window_s = number("guided.downlinkEnd") - number("guided.downlinkStart");
     let has_science = (0.0..number("guided.downlinkEvery") * period_s).contains(&window_s);
-    let is_guided = item(description, sets, "attitude.source") == Some("guided");
-    let names: &[&str] = if has_science && is_guided && can_choose {
+    let is_guided = values.item("attitude.source") == Some("guided");
+    if has_science && is_guided && can_choose {
         &["dumpsOnly", "reactive", "predictive"]
     } else {
         &["dumpsOnly"]
-    };
-    names.iter().map(|name| (*name).to_owned()).collect()
+    }
 }

@@ -107,7 +107,7 @@ fn dumps(sized: &SizedSpacecraft, sweep: &Sweep) -> String {
     );
     for it in &sweep.dumped {
         table.add_row([
-            it.strategy.clone(),
+            it.strategy.to_owned(),
             triple(it.threshold_n_m_s.into()),
             rounded(capacity(sized, it)),
             rounded(it.dumps),
@@ -181,7 +181,7 @@ pub(super) fn csv(sized: &SizedSpacecraft, sweep: &Sweep) -> String {
     let rows = sweep.dumped.iter().map(|it| {
         let [x, y, z]: [f64; 3] = it.threshold_n_m_s.into();
         let numbers = [x, y, z, capacity(sized, it), it.dumps, it.impulse_n_m_s, it.propellant_kg];
-        [it.strategy.clone()].into_iter().chain(numbers.map(|value| Real(value).to_string()))
+        [it.strategy.to_owned()].into_iter().chain(numbers.map(|value| Real(value).to_string()))
     });
     let header = "strategy,threshold_x_n_m_s,threshold_y_n_m_s,threshold_z_n_m_s,wheel_capacity_n_m_s,dumps_per_year,\
                   impulse_n_m_s_per_year,propellant_kg_per_year";

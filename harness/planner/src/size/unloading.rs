@@ -13,7 +13,7 @@ use super::{
 pub(super) struct Unloadings {
     /// Wheels between them.
     pub wheels: Wheels,
-    /// Figures of the first year, and of the last of a mission of several.
+    /// Figures of the first year, and of the last of a mission of several; none of flights that are shorter than the time between them.
     pub years: Vec<YearOfUnloading>,
     /// The longest of them; `None` without thrusters that dump.
     pub longest: Option<Firing>,
@@ -38,19 +38,19 @@ pub(super) struct Firing {
 }
 
 impl Unloadings {
-    /// Unloadings of these flights; `None` where they are shorter than the time between them.
+    /// Unloadings of these flights, by thrusters if they dump.
     pub(super) fn new(
         demands: &Demands<'_>,
         flights: &[Histories],
         every_s: f64,
         dumping: Option<&ThrusterSelection>,
-    ) -> Option<Self> {
+    ) -> Self {
         let thrusters = &demands.sized.spacecraft.thrusters;
         let firing = |impulse: &Vector3<f64>| dumping.map(|it| Firing::new(thrusters, it, &-impulse));
         let mut longest: Option<Firing> = None;
         let mut years = Vec::new();
-        for flight in flights {
-            let (gathered_n_m_s, time_s) = flight.unloaded_n_m_s(every_s)?;
+        let unloaded: Option<Vec<_>> = flights.iter().map(|flight| flight.unloaded_n_m_s(every_s)).collect();
+        for (gathered_n_m_s, time_s) in unloaded.unwrap_or_default() {
             let per_year = YEAR_S / time_s;
             let fired: Vec<Firing> = gathered_n_m_s.iter().filter_map(firing).collect();
             longest = fired.iter().copied().chain(longest).max_by(|a, b| a.time_s.total_cmp(&b.time_s));
@@ -59,12 +59,7 @@ impl Unloadings {
                 propellant_kg: per_year * fired.iter().map(|it| it.propellant_kg).sum::<f64>(),
             });
         }
-        Some(Self { wheels: demands.wheels(flights, every_s), years, longest })
-    }
-
-    /// Case of flights that are shorter than the time between unloadings: wheels for all of them, and no dump.
-    pub(super) fn none(demands: &Demands<'_>, flights: &[Histories], every_s: f64) -> Self {
-        Self { wheels: demands.wheels(flights, every_s), years: Vec::new(), longest: None }
+        Self { wheels: demands.wheels(flights, every_s), years, longest }
     }
 
     /// Propellant of `years` between the first and the last in proportion, in kg.

@@ -1,6 +1,5 @@
 //! A plan pulse by pulse, as CSV and JSON.
 
-use nalgebra::Vector3;
 use physics::{attitude::angle_between_rad, constants::RPM_RAD_S, environment::dates};
 use serde::Serialize;
 
@@ -11,7 +10,7 @@ use super::{
     options::RightAscensionDeclination,
     start_values::{self, Setting},
     timing_label,
-    turn_geometry::{Way, right_ascension_declination_deg},
+    turn_geometry::{Way, right_ascension_declination},
 };
 
 /// A plan that was simulated and checked against its limits.
@@ -45,11 +44,6 @@ struct Line<'a> {
     nutation_deg: f64,
     sun_angle_deg: f64,
     earth_angle_deg: Option<f64>,
-}
-
-fn place(direction: &Vector3<f64>) -> RightAscensionDeclination {
-    let (right_ascension_deg, declination_deg) = right_ascension_declination_deg(direction);
-    RightAscensionDeclination { right_ascension_deg, declination_deg }
 }
 
 #[derive(Serialize)]
@@ -129,12 +123,12 @@ impl PlannedBurn {
             spin_rate_rpm: self.task.case.spin.rate_rad_s / RPM_RAD_S,
             timing: timing_label(self.task.case.timing),
             train: self.row.label(),
-            start: place(&self.flight.start_axis_inertial),
-            target: place(&geometry.target_inertial),
-            end: place(&self.flight.end_axis_inertial()),
+            start: right_ascension_declination(&self.flight.start_axis_inertial),
+            target: right_ascension_declination(&geometry.target_inertial),
+            end: right_ascension_declination(&self.flight.end_axis_inertial()),
             miss_deg: self.flight.miss_rad(&self.task).to_degrees(),
-            sun: place(&geometry.sun_inertial),
-            earth: geometry.earth_inertial.as_ref().map(place),
+            sun: right_ascension_declination(&geometry.sun_inertial),
+            earth: geometry.earth_inertial.as_ref().map(right_ascension_declination),
             great_circle: Course::new(&geometry.great_circle()),
             rhumb_line: geometry.rhumb_line().as_ref().map(Course::new),
             propellant_kg: self.row.propellant_kg,
@@ -151,7 +145,7 @@ impl PlannedBurn {
         let geometry = &self.task.geometry;
         self.flight.pulses.iter().enumerate().map(move |(k, pulse)| {
             let axis = &pulse.axis_inertial;
-            let (axis_right_ascension_deg, axis_declination_deg) = right_ascension_declination_deg(axis);
+            let place = right_ascension_declination(axis);
             Line {
                 pulse: k + 1,
                 time_s: pulse.time_s,
@@ -159,8 +153,8 @@ impl PlannedBurn {
                 thruster: &pulse.thruster,
                 phase_deg: pulse.phase_rad.to_degrees(),
                 after_sun_crossing_s: pulse.after_sun_s,
-                axis_right_ascension_deg,
-                axis_declination_deg,
+                axis_right_ascension_deg: place.right_ascension_deg,
+                axis_declination_deg: place.declination_deg,
                 nutation_deg: pulse.nutation_rad.to_degrees(),
                 sun_angle_deg: angle_between_rad(axis, &geometry.sun_inertial).to_degrees(),
                 earth_angle_deg: geometry

@@ -41,7 +41,7 @@ fn what_is_simulated_is_what_was_planned() {
             flight.miss_rad(task)
         );
         let on_s: f64 = flight.pulses.iter().map(|pulse| pulse.on_time_s).sum();
-        assert!((on_s * task.flow_kg_s / row.propellant_kg - 1.0).abs() < 1e-9, "{arguments}");
+        assert!((on_s * task.actuator.flow_kg_s / row.propellant_kg - 1.0).abs() < 1e-9, "{arguments}");
         let (first, last) = (&flight.pulses[0], flight.pulses.last().unwrap());
         let lasted_s = last.time_s + last.on_time_s - first.time_s;
         assert!(
@@ -54,7 +54,7 @@ fn what_is_simulated_is_what_was_planned() {
             flight
                 .pulses
                 .iter()
-                .all(|pulse| task.thruster.contains(&pulse.thruster) || row.train.alternates())
+                .all(|pulse| task.actuator.name.contains(&pulse.thruster) || row.train.alternates())
         );
     }
 }
@@ -234,10 +234,10 @@ fn rows_are_counted_and_fit_a_terminal() {
 fn the_thruster_is_the_files_own() {
     let renamed = ACE.replace("\"IIIR\"", "\"lower +X\"");
     let spinner = Spinner::parse("my.toml", &renamed).unwrap();
-    assert_eq!(super::Task::new(&request("--angle 2deg"), &spinner).unwrap().thruster, "lower +X");
+    assert_eq!(super::Task::new(&request("--angle 2deg"), &spinner).unwrap().actuator.name, "lower +X");
     let slower = ACE.replace("spin_rate_rpm = 5.0", "spin_rate_rpm = 3.0");
     let spinner = Spinner::parse("my.toml", &slower).unwrap();
     let rate = super::Task::new(&request("--angle 2deg"), &spinner).unwrap().case.spin.rate_rad_s;
     assert!((rate - 0.1 * core::f64::consts::PI).abs() < 1e-15);
-    assert_eq!(super::Task::new(&request("--angle 2deg"), &ace()).unwrap().thruster, "IIIR");
+    assert_eq!(super::Task::new(&request("--angle 2deg"), &ace()).unwrap().actuator.name, "IIIR");
 }

@@ -15,8 +15,6 @@ const SAMPLES: u32 = 25;
 /// One cadence and what it costs.
 #[derive(Clone, Debug, Default)]
 pub struct Cadence {
-    /// From manoeuvre to manoeuvre, in s.
-    pub interval_s: f64,
     /// Manoeuvres in the campaign.
     pub count: u32,
     /// Mean and greatest size, in rad.
@@ -94,7 +92,7 @@ pub fn campaign(
     [duration_s, interval_s]: [f64; 2],
     passed: &mut dyn FnMut(),
 ) -> Result<Cadence, PlanError> {
-    let mut seen = Cadence { interval_s, ..Cadence::default() };
+    let mut seen = Cadence::default();
     let mut before: Option<Vector3<f64>> = None;
     for pointing in pointings(spinner, phases, duration_s, interval_s) {
         passed();

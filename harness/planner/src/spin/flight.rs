@@ -80,15 +80,15 @@ impl SimulatedPlan {
 /// How the plant starts.
 fn start(spinner: &Spinner, task: &Task, row: &TrainForecast) -> Start {
     let (train, case) = (&row.train, &task.case);
-    let (thruster, opposite_thruster, group) = match &task.firing {
+    let (thruster, opposite_thruster, group) = match &task.actuator.firing {
         Firing::Group(name) => (1, 0, name.clone()),
         Firing::Thruster { number, opposite } => (*number, opposite.unwrap_or(0), String::new()),
     };
     Start {
-        inertia_kg_m2: task.moments_kg_m2,
-        products_kg_m2: task.products_kg_m2,
+        inertia_kg_m2: task.body.moments_kg_m2,
+        products_kg_m2: task.body.products_kg_m2,
         mass_source: MassSource::Fixed,
-        propellant_kg: task.propellant_kg,
+        propellant_kg: task.body.propellant_kg,
         execution: spinner.execution(),
         spin_rate_rad_s: case.spin.rate_rad_s,
         attitude: task.attitude().0,
@@ -260,7 +260,7 @@ impl Flyer<'_> {
     /// A group's name where it fires whole, otherwise that of the thrusters.
     fn name(&self, mask: u32) -> String {
         if let Some(group) = self.spinner.groups.iter().find(|group| group.mask == mask)
-            && matches!(self.task.firing, Firing::Group(_))
+            && matches!(self.task.actuator.firing, Firing::Group(_))
         {
             return group.name.clone();
         }

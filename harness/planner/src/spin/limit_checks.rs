@@ -90,7 +90,7 @@ pub(crate) fn check_limits(
         ("worst nutation", "--max-nutation", degrees(row.peak_rad, given.peak_rad), "deg"),
         ("worst nutation left", "--max-final", degrees(row.final_rad, given.final_rad), "deg"),
         ("time", "--max-duration", [row.longest_s / 60.0, given.duration_s / 60.0], "min"),
-        ("propellant", "on board", [1e3 * row.propellant_kg, 1e3 * task.propellant_kg], "g"),
+        ("propellant", "on board", [1e3 * row.propellant_kg, 1e3 * task.body.propellant_kg], "g"),
     ] {
         if most.is_finite() {
             let (allowed, kept, remark) = ((0.0, most), Some(found <= most), String::new());

@@ -36,7 +36,7 @@ pub use physics::{
     environment::dates::{ALLOWED_DATE, epoch_s},
     spin::forecast::Timing,
 };
-pub use task::{Firing, Task, TaskLimits};
+pub use task::{Actuator, Body, Firing, Task, TaskLimits};
 pub use trade::{TrainForecast, best, evaluate, frontier, timing_label, trade, uniform_plan};
-pub use turn_geometry::{MAX_ANGLE_DEG, TurnGeometry, Way, right_ascension_declination_deg};
+pub use turn_geometry::{MAX_ANGLE_DEG, TurnGeometry, Way, right_ascension_declination};
 pub use verification::{Verification, verify};

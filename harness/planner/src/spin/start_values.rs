@@ -45,9 +45,9 @@ pub(super) fn start_values(task: &Task, row: &TrainForecast) -> Vec<(&'static st
     let whole = |count: u32| Setting::Integer(i32::try_from(count).unwrap_or(i32::MAX));
     let vector = |values: &[f64]| Setting::Vector(values.to_vec());
     let mut values = vec![
-        ("inertia", vector(&task.moments_kg_m2)),
-        ("productsOfInertia", vector(&task.products_kg_m2)),
-        ("propellant.loaded", Setting::Real(task.propellant_kg)),
+        ("inertia", vector(&task.body.moments_kg_m2)),
+        ("productsOfInertia", vector(&task.body.products_kg_m2)),
+        ("propellant.loaded", Setting::Real(task.body.propellant_kg)),
         ("spin.initialRate", Setting::Real(task.case.spin.rate_rad_s)),
         ("start.q", vector(&task.attitude().0)),
         ("start.nutation", Setting::Real(0.0)),
@@ -56,7 +56,7 @@ pub(super) fn start_values(task: &Task, row: &TrainForecast) -> Vec<(&'static st
     values.extend(order.map(|order| ("burn.taperOrder", whole(order))));
     values.push(("burn.timing", Setting::Text(timing_item(task.case.timing).to_owned())));
     values.push(("burn.start", Setting::Real(0.0)));
-    match &task.firing {
+    match &task.actuator.firing {
         Firing::Group(name) => values.push(("burn.group", Setting::Text(name.clone()))),
         Firing::Thruster { number, opposite } => {
             values.push(("burn.group", Setting::Text(String::new())));

@@ -1,6 +1,5 @@
 //! Task of a spinner's manoeuvre: its goal and its means.
 
-use nalgebra::Vector3;
 use physics::{
     attitude::{Inertia, Quaternion},
     constants::RPM_RAD_S,
@@ -36,12 +35,8 @@ pub enum Firing {
 pub struct Task {
     /// From where to where.
     pub geometry: TurnGeometry,
-    /// Moments about the body axes of what is planned for, in kg m2.
-    pub moments_kg_m2: [f64; 3],
-    /// Products of inertia 12, 13, 23, in kg m2: elements of the tensor.
-    pub products_kg_m2: [f64; 3],
-    /// Spin axis in the body.
-    pub spin_axis_body: Vector3<f64>,
+    /// Body that is turned.
+    pub body: Body,
     /// How far the momentum shall move, in rad.
     pub angle_rad: f64,
     /// Relative: trains move by whole pulses.
@@ -50,18 +45,10 @@ pub struct Task {
     pub case: ForecastCase,
     /// Range of the errors of the case.
     pub range: Range,
-    /// Name of the thruster or group.
-    pub thruster: String,
-    /// Thruster or group, as a burn of the FMU takes it.
-    pub firing: Firing,
-    /// On board, in kg.
-    pub propellant_kg: f64,
+    /// Thruster or group that fires.
+    pub actuator: Actuator,
     /// Angle from the spin axis to the Sun, in rad.
     pub sun_angle_rad: f64,
-    /// Propellant flow of the thruster, in kg/s.
-    pub flow_kg_s: f64,
-    /// Whether an opposite thruster can alternate with it.
-    pub has_opposite: bool,
     /// Smallest pulse and step of its width, in s.
     pub resolution_s: f64,
     /// 1/e time of nutation, in s; 0 without a damper.
@@ -103,11 +90,15 @@ fn refused(error: impl ToString) -> PlanError {
 }
 
 /// Body that is turned: its mass properties with the propellant on board.
-struct Body {
-    propellant_kg: f64,
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// On board, in kg.
+    pub propellant_kg: f64,
     inertia: Inertia,
-    moments_kg_m2: [f64; 3],
-    products_kg_m2: [f64; 3],
+    /// Moments about the body axes of what is planned for, in kg m2.
+    pub moments_kg_m2: [f64; 3],
+    /// Products of inertia 12, 13, 23, in kg m2: elements of the tensor.
+    pub products_kg_m2: [f64; 3],
     ratio: f64,
     ratio_uncertainty: f64,
 }
@@ -145,12 +136,17 @@ impl Body {
 }
 
 /// Thruster or group that fires.
-struct Actuator {
-    name: String,
-    firing: Firing,
+#[derive(Clone, Debug)]
+pub struct Actuator {
+    /// Its name.
+    pub name: String,
+    /// The same, as a burn of the FMU takes it.
+    pub firing: Firing,
     torque_n_m: f64,
-    flow_kg_s: f64,
-    has_opposite: bool,
+    /// Propellant flow, in kg/s.
+    pub flow_kg_s: f64,
+    /// Whether an opposite thruster can alternate with it.
+    pub has_opposite: bool,
 }
 
 impl Actuator {
@@ -206,9 +202,6 @@ impl Task {
         let limit = |flag, value: Option<f64>| value.map_or(Ok(f64::INFINITY), |value| positive(flag, value));
         Ok(Self {
             geometry,
-            moments_kg_m2: body.moments_kg_m2,
-            products_kg_m2: body.products_kg_m2,
-            spin_axis_body: body.inertia.spin_axis_body(),
             angle_rad,
             angle_tolerance: positive("--angle-tolerance", request.angle_tolerance_percent)? / 100.0,
             case: ForecastCase {
@@ -218,12 +211,7 @@ impl Task {
                 torque_n_m: actuator.torque_n_m,
             },
             range: Range { ratio: body.ratio_uncertainty, rate_rad_s: error_rpm * RPM_RAD_S },
-            thruster: actuator.name,
-            firing: actuator.firing,
-            propellant_kg: body.propellant_kg,
             sun_angle_rad,
-            flow_kg_s: actuator.flow_kg_s,
-            has_opposite: actuator.has_opposite,
             resolution_s: spinner.resolution_s,
             damper_time_constant_s: spinner.damper_time_constant_s,
             allowed_nutation_rad: allowed_nutation_rad(
@@ -236,12 +224,14 @@ impl Task {
                 final_rad: limit("--max-final", request.max_final_deg)?.to_radians(),
                 duration_s: limit("--max-duration", request.max_duration_s)?,
             },
+            body,
+            actuator,
         })
     }
 
     /// EME2000 to body at the start, with the spin axis where the turn begins.
     pub fn attitude(&self) -> Quaternion {
-        self.geometry.attitude(&self.spin_axis_body)
+        self.geometry.attitude(&self.body.inertia.spin_axis_body())
     }
 
     /// Whether a limit was given for the burn; the propellant on board always is one.

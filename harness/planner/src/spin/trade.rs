@@ -20,8 +20,6 @@ pub struct TrainForecast {
     pub train: Train,
     /// Worst nutation after the last pulse, in rad.
     pub final_rad: f64,
-    /// The same if everything is as assumed, in rad.
-    pub nominal_final_rad: f64,
     /// Worst nutation at any time, in rad.
     pub peak_rad: f64,
     /// Momentum moved if everything is as assumed, in rad.
@@ -34,8 +32,6 @@ pub struct TrainForecast {
     pub longest_s: f64,
     /// In kg.
     pub propellant_kg: f64,
-    /// Damping after it until nutation is what science bears, in s.
-    pub damping_s: f64,
     /// Damping that the uniform plan (equal pulses of one step, once a turn) would need to come down to this one's final
     /// nutation, in s; negative if this one is worse.
     pub damping_saved_s: f64,
@@ -78,7 +74,7 @@ pub fn trade(task: &Task) -> Result<Vec<TrainForecast>, PlanError> {
     let reference = uniform_plan(task)?;
     let mut rows = Vec::new();
     for turns in [0.5_f64, 1.0, 1.5, 2.0] {
-        if !task.has_opposite && turns.fract() != 0.0 {
+        if !task.actuator.has_opposite && turns.fract() != 0.0 {
             continue;
         }
         for unit in UNITS {
@@ -95,7 +91,7 @@ pub fn trade(task: &Task) -> Result<Vec<TrainForecast>, PlanError> {
              {:.6} deg",
             task.angle_rad.to_degrees(),
             100.0 * task.angle_tolerance,
-            task.thruster,
+            task.actuator.name,
             1e3 * task.resolution_s,
             spin.manoeuvre_rad(task.case.torque_n_m, task.resolution_s).to_degrees(),
         )));
@@ -149,7 +145,7 @@ pub fn uniform_plan(task: &Task) -> Result<TrainForecast, PlanError> {
             } else {
                 format!("no train of pulses of {pulse_s} s turns by {} deg", task.angle_rad.to_degrees())
             };
-            PlanError::Infeasible(format!("--thruster {} has no train: {why}", task.thruster))
+            PlanError::Infeasible(format!("--thruster {} has no train: {why}", task.actuator.name))
         })
 }
 
@@ -177,27 +173,25 @@ pub fn evaluate(task: &Task, shape: Shape, unit: u32, turns: f64) -> Option<Trai
             train.duration_s(2.0 * PI / (spin.rate_rad_s - task.range.rate_rad_s))
         }
     };
-    let propellant_kg = train.on_time_s() * task.flow_kg_s;
+    let propellant_kg = train.on_time_s() * task.actuator.flow_kg_s;
     let limits = &task.limits;
     let damping_s = damping_s(task, worst.final_nutation_rad);
     let disturbed = worst.peak_nutation_rad > task.allowed_nutation_rad;
     Some(TrainForecast {
         train,
         final_rad: worst.final_nutation_rad,
-        nominal_final_rad: nominal.final_nutation_rad,
         peak_rad: worst.peak_nutation_rad,
         moved_rad: nominal.moved_rad,
         moved_range_rad: (worst.least_moved_rad, worst.most_moved_rad),
         duration_s,
         longest_s,
         propellant_kg,
-        damping_s,
         damping_saved_s: 0.0,
         science_lost_s: damping_s + if disturbed { duration_s } else { 0.0 },
         fits: worst.peak_nutation_rad <= limits.peak_rad
             && worst.final_nutation_rad <= limits.final_rad
             && longest_s <= limits.duration_s
-            && propellant_kg <= task.propellant_kg,
+            && propellant_kg <= task.body.propellant_kg,
     })
 }
 

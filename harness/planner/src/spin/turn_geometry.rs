@@ -236,11 +236,12 @@ fn mercator(sun_angle_rad: f64) -> f64 {
 }
 
 /// Right ascension from 0 to below 360 and declination of a direction, in deg.
-pub fn right_ascension_declination_deg(direction: &Vector3<f64>) -> (f64, f64) {
+pub fn right_ascension_declination(direction: &Vector3<f64>) -> RightAscensionDeclination {
     let right_ascension_deg = direction.y.atan2(direction.x).to_degrees().rem_euclid(360.0);
     let declination_deg = direction.z.atan2(libm::hypot(direction.x, direction.y)).to_degrees();
     // A small negative angle rounds to 360.
-    (if right_ascension_deg < 360.0 { right_ascension_deg } else { 0.0 }, declination_deg)
+    let right_ascension_deg = if right_ascension_deg < 360.0 { right_ascension_deg } else { 0.0 };
+    RightAscensionDeclination { right_ascension_deg, declination_deg }
 }
 
 fn inertial(given: RightAscensionDeclination) -> Vector3<f64> {

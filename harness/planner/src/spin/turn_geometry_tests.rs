@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use physics::attitude::angle_between_rad;
 
 use super::tests::{ace, request};
-use super::{ACE, PlanError, TurnGeometry, TurnRequest, right_ascension_declination_deg};
+use super::{ACE, PlanError, TurnGeometry, TurnRequest, right_ascension_declination};
 use physics::spin::spinner::Spinner;
 
 fn geometry(arguments: &str) -> TurnGeometry {
@@ -126,9 +126,9 @@ fn the_attitude_has_the_axis_where_the_turn_begins() {
         let found = geometry.attitude(&body).inertial_from_body(&body);
         assert!((found - geometry.axis_inertial).norm() < 1e-12, "{from}: {found}");
     }
-    let (right_ascension, declination) =
-        right_ascension_declination_deg(&geometry("--from=-120deg,-20deg --sun 0deg,0deg").axis_inertial);
-    assert!((right_ascension - 240.0).abs() < 1e-9 && (declination + 20.0).abs() < 1e-9);
+    let from = geometry("--from=-120deg,-20deg --sun 0deg,0deg");
+    let place = right_ascension_declination(&from.axis_inertial);
+    assert!((place.right_ascension_deg - 240.0).abs() < 1e-9 && (place.declination_deg + 20.0).abs() < 1e-9);
 }
 
 #[test]

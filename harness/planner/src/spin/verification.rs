@@ -172,7 +172,7 @@ fn sets(fmu: &Fmu, task: &Task, row: &TrainForecast, spin: &Spin) -> Result<Vec<
         real("spin.initialRate", spin.rate_rad_s),
         real("start.nutation", 0.0),
         real("damper.timeConstant", 0.0),
-        real("propellant.loaded", task.propellant_kg),
+        real("propellant.loaded", task.body.propellant_kg),
         real("pulse.resolution", task.resolution_s),
         real("burn.start", 0.0),
         real("burn.angle", 0.0),
@@ -200,7 +200,7 @@ fn sets(fmu: &Fmu, task: &Task, row: &TrainForecast, spin: &Spin) -> Result<Vec<
         sets.extend((1..).zip(vector).map(|(axis, value)| real(&format!("{name}[{axis}]"), value)));
     }
     sets.extend((1..).zip([0.0, 0.0, 0.0, 1.0]).map(|(i, value)| real(&format!("start.q[{i}]"), value)));
-    match &task.firing {
+    match &task.actuator.firing {
         Firing::Group(name) => sets.push(text("burn.group", name)),
         Firing::Thruster { number, opposite } => {
             check_name(fmu, task, *number)?;
@@ -212,20 +212,20 @@ fn sets(fmu: &Fmu, task: &Task, row: &TrainForecast, spin: &Spin) -> Result<Vec<
     Ok(sets)
 }
 
-/// The FMU's thruster of that number must be the one the plan is for.
 fn failed(error: impl core::fmt::Display) -> PlanError {
     PlanError::Verify(error.to_string())
 }
 
+/// The FMU's thruster of that number must be the one the plan is for.
 fn check_name(fmu: &Fmu, task: &Task, number: i32) -> Result<(), PlanError> {
     let thruster = format!("thruster[{number}]");
     let found = match labels::of_groups(fmu.description()).get(thruster.as_str()) {
-        Some(name) if *name == task.thruster => return Ok(()),
+        Some(name) if *name == task.actuator.name => return Ok(()),
         Some(name) => format!("\"{name}\""),
         None => "missing".to_owned(),
     };
     Err(failed(format_args!(
         "its {thruster} is {found}, the plan is for \"{}\": it was packed for another spacecraft",
-        task.thruster
+        task.actuator.name
     )))
 }

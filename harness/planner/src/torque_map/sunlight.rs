@@ -1,7 +1,8 @@
 //! Force and torque of sunlight from any direction, and their exact derivatives, as the FMU gives them.
 
-use fmi::{Error, Fmu, Instance, InstanceOptions, Value};
+use fmi::{Error, Fmu, Instance, Value};
 use nalgebra::Vector3;
+use packing::instance::started;
 
 use super::panels::TurnedPanels;
 
@@ -58,7 +59,7 @@ impl<'a> Sunlight<'a> {
             ["torque", "force"].map(|what| vector(&format!("{what}.{}", spacecraft.source))).concat();
         let (inputs, outputs) = (references(&inputs)?, references(&outputs)?);
         let mut sunlight = Self {
-            instance: started(fmu)?,
+            instance: started(fmu, "map", 0.0, &[("planet.present".to_owned(), Value::Boolean(false))])?,
             panels: &spacecraft.panels,
             distance_m: spacecraft.distance_m,
             values: vec![0.0; inputs.len()],
@@ -131,13 +132,4 @@ impl<'a> Sunlight<'a> {
 
 fn vector(name: &str) -> Vec<String> {
     (1..=3).map(|axis| format!("{name}[{axis}]")).collect()
-}
-
-fn started(fmu: &Fmu) -> Result<Instance, Error> {
-    let mut instance = Instance::new(fmu, "map", &InstanceOptions::default())?;
-    instance.set("planet.present", &Value::Boolean(false))?;
-    instance.setup_experiment(None, 0.0, None)?;
-    instance.enter_initialization_mode()?;
-    instance.exit_initialization_mode()?;
-    Ok(instance)
 }

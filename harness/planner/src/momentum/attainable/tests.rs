@@ -6,7 +6,7 @@ use super::*;
 use crate::momentum::{
     encountered::Encountered,
     in_force::ActiveControls,
-    plan::{MomentumPlan, plan},
+    plan::{MomentumPlan, PlanTask, plan},
     simulated::MomentumSize,
     target::Target,
     test_spacecraft::{DAY_S, row, simulated, sunlit, task},
@@ -47,8 +47,8 @@ impl Encounters {
         for row in &mut simulated.rows {
             let sun_body = row.inertial_from_body.inverse() * row.to_sun_m.normalize();
             let panels = sunlit.spacecraft.panels.iter().zip(&sunlit.panels);
-            let angles = panels.map(|(panel, (_, tilt_sign))| {
-                panel.angle_for_sun_offset(&sun_body, windows[0].baseline_rad, *tilt_sign)
+            let angles = panels.map(|(panel, own)| {
+                panel.angle_for_sun_offset(&sun_body, windows[0].baseline_rad, own.tilt.sign)
             });
             row.panel_angles_rad = angles.collect();
         }
@@ -107,12 +107,13 @@ fn targeting(limit_n_m_s: f64, control_bounds: ControlBounds) -> PlanTask {
 fn planned(task: &PlanTask, miss_m: Vector3<f64>) -> MomentumPlan {
     let mut encounters = Encounters::new(miss_m);
     let (sunlit, simulated) = (encounters.sunlit.clone(), encounters.simulated.clone());
-    plan(task, &sunlit, &simulated, &mut encounters).unwrap()
+    plan(&PlanProblem { task, sunlit: &sunlit, simulated: &simulated }, &mut encounters).unwrap()
 }
 
 fn reached(task: &PlanTask) -> Reachable {
     let encounters = Encounters::new(Vector3::zeros());
-    reachable(task, &encounters.sunlit, &encounters.simulated, &mut Silent).unwrap()
+    let problem = PlanProblem { task, sunlit: &encounters.sunlit, simulated: &encounters.simulated };
+    reachable(&problem, &mut Silent).unwrap()
 }
 
 /// One control alone: the force at its bounds, times the time, is the reach.
@@ -132,15 +133,19 @@ fn the_reach_of_one_control_is_what_its_bounds_do() {
     let places = [0.1, -0.1].map(|elevation_rad| (at(elevation_rad) - at(0.0)).xy());
     assert!(places[0].norm() > 5e3, "{places:?}");
     for place in places {
-        let nearest = found.polygon_m.iter().map(|corner| (Vector2::from(*corner) - place).norm());
-        assert!(nearest.fold(f64::INFINITY, f64::min) < 1e-3 * place.norm(), "{:?} {place}", found.polygon_m);
+        let nearest = found.region_m.corners.iter().map(|corner| (Vector2::from(*corner) - place).norm());
+        assert!(
+            nearest.fold(f64::INFINITY, f64::min) < 1e-3 * place.norm(),
+            "{:?} {place}",
+            found.region_m.corners
+        );
     }
     // A segment, but for what is not linear.
     let area = |corners: &[[f64; 2]]| {
         let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
         0.5 * pairs.map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>()
     };
-    assert!(area(&found.polygon_m) < 0.05 * (places[0] - places[1]).norm_squared());
+    assert!(area(&found.region_m.corners) < 0.05 * (places[0] - places[1]).norm_squared());
 }
 
 /// What lies inside of the polygon is met within all limits, what lies outside is not.
@@ -151,7 +156,7 @@ fn a_target_in_reach_is_met_and_one_beyond_is_not() {
     for (axis, sign, along) in [(0, 1.0, 0), (1, -1.0, 3)] {
         let farthest_m: f64 = reach.along_m[along].unwrap();
         assert!(farthest_m > 5e3);
-        let corners = reach.polygon_m.iter().map(|corner| sign * corner[axis]);
+        let corners = reach.region_m.corners.iter().map(|corner| sign * corner[axis]);
         assert!(corners.fold(0.0, f64::max) >= farthest_m * (1.0 - 1e-3));
         for (share, is_met) in [(0.85, true), (1.2, false)] {
             let mut miss_m = Vector3::zeros();
@@ -183,9 +188,10 @@ fn a_flight_that_alternates_is_within_its_own_reach() {
         momentum += load.mean(1.0).0 * 7200.0;
     }
     task.limit.momentum_n_m_s = 1.02 * simulated.greatest(MomentumSize::Length).0;
-    let found = reachable(&task, &sunlit, &simulated, &mut Silent).unwrap();
+    let problem = PlanProblem { task: &task, sunlit: &sunlit, simulated: &simulated };
+    let found = reachable(&problem, &mut Silent).unwrap();
     println!("{found:?}");
-    let all: Vec<Vector2<f64>> = found.polygon_m.iter().map(|corner| Vector2::from(*corner)).collect();
+    let all: Vec<Vector2<f64>> = found.region_m.corners.iter().map(|corner| Vector2::from(*corner)).collect();
     let is_within = |place: Vector2<f64>| {
         let mut pairs = all.iter().zip(all.iter().cycle().skip(1));
         pairs.all(|(from, to)| (to - from).perp(&(place - from)) >= 0.0)

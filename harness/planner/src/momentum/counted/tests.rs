@@ -6,19 +6,18 @@ use super::*;
 use crate::momentum::{
     simulated::SimulatedFlight,
     test_spacecraft::{DAY_S, simulated, sunlit, task},
+    torque::SunlitSpacecraft,
     windows::ControlBounds,
 };
 
-fn model(
+fn model<'a>(
     control_bounds: ControlBounds,
     limit: f64,
-    simulated: impl Fn(&crate::momentum::torque::SunlitSpacecraft) -> SimulatedFlight,
-) -> Model {
-    let sunlit = sunlit([0.0; 3]);
+    (sunlit, simulated): (&'a SunlitSpacecraft, SimulatedFlight),
+) -> Model<'a> {
     let task = task(limit, control_bounds);
-    let simulated = simulated(&sunlit);
-    let (windows, _) = task.layout.windows(&sunlit, &simulated).unwrap();
-    Model::new(&sunlit, simulated, windows, task.limit)
+    let (windows, _) = task.layout.windows(sunlit, &simulated).unwrap();
+    Model::new(sunlit, simulated, windows, task.limit)
 }
 
 /// A torque along one direction through T t: the first dump after L, the others after 2 L each.
@@ -26,13 +25,12 @@ fn model(
 fn dumps_of_a_constant_torque_are_counted_in_closed_form() {
     let per_day = 1.0;
     for (limit, days) in [(1.02, 12), (2.1, 12), (5.0, 12), (20.0, 12)] {
-        let model = model(ControlBounds::default(), limit, |sunlit| {
-            let mut simulated = simulated(sunlit, days, 3000.0);
-            for row in &mut simulated.rows {
-                row.other_torque_n_m = Vector3::x() * (per_day / DAY_S);
-            }
-            simulated
-        });
+        let sunlit = sunlit([0.0; 3]);
+        let mut simulated = simulated(&sunlit, days, 3000.0);
+        for row in &mut simulated.rows {
+            row.other_torque_n_m = Vector3::x() * (per_day / DAY_S);
+        }
+        let model = model(ControlBounds::default(), limit, (&sunlit, simulated));
         let expected = ((per_day * f64::from(days) - limit) / (2.0 * limit)).ceil().max(0.0) as usize;
         let found = fewest_dumps(&model, 0.0, &mut || {}).unwrap();
         assert_eq!(found.at_least, expected, "{limit}");
@@ -57,15 +55,14 @@ fn changes_are_the_fewest_of_all_choices() {
         ([1.0, 1.0, 1.0, -1.0, 0.5, 0.5, -1.0], 0.9),
         ([0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1], 0.9),
     ] {
-        let model = model(control_bounds, limit, |sunlit| {
-            let mut simulated = simulated(sunlit, 7, 0.4);
-            let sun = simulated.rows[0].to_sun_m.normalize();
-            for row in &mut simulated.rows {
-                let day = ((row.time_s / DAY_S) as usize).min(6);
-                row.other_torque_n_m = sun * (pattern[day] / DAY_S);
-            }
-            simulated
-        });
+        let sunlit = sunlit([0.0; 3]);
+        let mut simulated = simulated(&sunlit, 7, 0.4);
+        let sun = simulated.rows[0].to_sun_m.normalize();
+        for row in &mut simulated.rows {
+            let day = ((row.time_s / DAY_S) as usize).min(6);
+            row.other_torque_n_m = sun * (pattern[day] / DAY_S);
+        }
+        let model = model(control_bounds, limit, (&sunlit, simulated));
         let until = Instant::now() + std::time::Duration::from_secs(60);
         let found = fewest_changes(&model, [0.0, WHOLE], until, &mut || {});
         let mut fewest = None;

@@ -9,17 +9,20 @@ use crate::momentum::{
     controls::{Control, Controls},
     encountered::Encountered,
     in_force::ActiveControls,
+    planned::PlanProblem,
     test_spacecraft::{DAY_S, simulated, sunlit, task},
     torque::Attitude,
     windows::ControlBounds,
 };
 
-fn model(control_bounds: ControlBounds, limit: Limit) -> (SunlitSpacecraft, Model) {
-    let sunlit = sunlit([0.01, 0.02, 0.03]);
-    let simulated = simulated(&sunlit, 10, 0.4);
-    let (windows, _) = task(5.0, control_bounds).layout.windows(&sunlit, &simulated).unwrap();
-    let model = Model::new(&sunlit, simulated, windows, limit);
-    (sunlit, model)
+fn lit() -> SunlitSpacecraft {
+    sunlit([0.01, 0.02, 0.03])
+}
+
+fn model(sunlit: &SunlitSpacecraft, control_bounds: ControlBounds, limit: Limit) -> Model<'_> {
+    let simulated = simulated(sunlit, 10, 0.4);
+    let (windows, _) = task(5.0, control_bounds).layout.windows(sunlit, &simulated).unwrap();
+    Model::new(sunlit, simulated, windows, limit)
 }
 
 fn limit() -> Limit {
@@ -28,7 +31,8 @@ fn limit() -> Limit {
 
 #[test]
 fn a_constant_torque_is_time_times_torque() {
-    let (sunlit, model) = model(ControlBounds::default(), limit());
+    let sunlit = lit();
+    let model = model(&sunlit, ControlBounds::default(), limit());
     let torque = sunlit.torque_n_m(&model.simulated.rows[0], Attitude::Downlink, &model.windows[0].controls);
     let end = *model.momentum_n_m_s().last().unwrap();
     assert_relative_eq!(end, torque * (10.0 * DAY_S), max_relative = 1e-12);
@@ -38,11 +42,13 @@ fn a_constant_torque_is_time_times_torque() {
 /// Equal parts of both attitudes leave what is along the Sun line.
 #[test]
 fn alternation_leaves_the_sun_line() {
-    let (sunlit, mut model) = model(ControlBounds { alternate: 0.5, ..ControlBounds::default() }, limit());
+    let sunlit = lit();
+    let bounds = ControlBounds { alternate: 0.5, ..ControlBounds::default() };
+    let mut model = model(&sunlit, bounds, limit());
     for window in &mut model.windows {
         window.controls = window.controls.with(Control::Alternate, 0.5);
     }
-    model.linearise(&sunlit);
+    model.linearise();
     let end = *model.momentum_n_m_s().last().unwrap();
     let sun = model.simulated.rows[0].to_sun_m.normalize();
     assert!(end.cross(&sun).norm() < 1e-12);
@@ -52,14 +58,15 @@ fn alternation_leaves_the_sun_line() {
 
 #[test]
 fn a_flight_that_gains_more_is_believed() {
-    let (sunlit, mut model) = model(ControlBounds::default(), limit());
+    let sunlit = lit();
+    let mut model = model(&sunlit, ControlBounds::default(), limit());
     let more = Vector3::new(1e-6, -2e-6, 3e-6);
     let planned = model.momentum_n_m_s();
     let mut flight = model.simulated.clone();
     for (row, planned) in flight.rows.iter_mut().zip(&planned) {
         row.momentum_n_m_s = planned + more * row.time_s;
     }
-    model.take(&sunlit, &flight, 1.0);
+    model.take(&flight, 1.0);
     for (row, found) in flight.rows.iter().zip(model.momentum_n_m_s()) {
         assert_relative_eq!(row.momentum_n_m_s, found, epsilon = 1e-12);
     }
@@ -68,17 +75,18 @@ fn a_flight_that_gains_more_is_believed() {
 /// Of the scale alone three sigma are 3 s |T| t; of the centre of mass the share across the force, 3 s |F| t at most.
 #[test]
 fn a_covariance_leaves_three_sigma() {
+    let sunlit = lit();
     let covariance = |diagonal: [f64; 4]| {
         let covariance = Some(Matrix4::from_diagonal(&nalgebra::Vector4::from(diagonal)));
-        model(ControlBounds::default(), Limit { covariance, ..limit() })
+        model(&sunlit, ControlBounds::default(), Limit { covariance, ..limit() })
     };
-    let (sunlit, of_scale) = covariance([0.0, 0.0, 0.0, 0.1 * 0.1]);
+    let of_scale = covariance([0.0, 0.0, 0.0, 0.1 * 0.1]);
     let row = &of_scale.simulated.rows[0];
     let torque = sunlit.torque_n_m(row, Attitude::Downlink, &of_scale.windows[0].controls);
     let allowed = of_scale.allowed_n_m_s();
     assert_relative_eq!(allowed[0], 5.0);
     assert_relative_eq!(*allowed.last().unwrap(), 5.0 - 0.3 * torque.norm() * 10.0 * DAY_S, epsilon = 1e-9);
-    let (sunlit, of_center) = covariance([1e-6, 1e-6, 1e-6, 0.0]);
+    let of_center = covariance([1e-6, 1e-6, 1e-6, 0.0]);
     // F by the torque of a centre of mass moved across it.
     let moved = |axis: usize| {
         let mut other = sunlit.clone();
@@ -122,7 +130,7 @@ fn misses_without_jump_m(jump_s: f64, jump: &dyn Fn(Controls) -> Controls) -> [V
         let panels = sunlit.spacecraft.panels.iter().zip(&sunlit.panels);
         let offset_rad = controls.get(Control::Offset);
         row.panel_angles_rad = panels
-            .map(|(panel, (_, tilt_sign))| panel.angle_for_sun_offset(&sun_body, offset_rad, *tilt_sign))
+            .map(|(panel, own)| panel.angle_for_sun_offset(&sun_body, offset_rad, own.tilt.sign))
             .collect();
         if controls.get(Control::Alternate) > 0.0 {
             let half_turn = Rotation3::from_matrix_unchecked(behind.half_turn);
@@ -133,11 +141,12 @@ fn misses_without_jump_m(jump_s: f64, jump: &dyn Fn(Controls) -> Controls) -> [V
     let by_velocity = [0.0, 10.0 * DAY_S].map(|at_s| (at_s, by_velocity)).to_vec();
     simulated.encountered = Some(Encountered { miss: MISS_M, by_velocity });
     let (windows, _) = task.layout.windows(&sunlit, &simulated).unwrap();
-    let mut model = Model::new(&sunlit, simulated.clone(), windows, task.limit.clone());
+    let problem = PlanProblem { task: &task, sunlit: &sunlit, simulated: &simulated };
+    let mut model = problem.model(windows);
     let target = Some(Target { tolerance: [None; 3] });
-    let own = own_windows(&task.layout, &sunlit, &simulated);
+    let own = own_windows(&problem);
     let [found, by_rows] = [own, None].map(|own| {
-        model.set_target(&sunlit, target, own);
+        model.set_target(target, own);
         model.miss().unwrap()
     });
     let more_n = before.normal.force_n - behind.mean_force_n(moved.get(Control::Alternate)).0;

@@ -11,7 +11,7 @@ use crate::momentum::{
     Limit,
     controls::Control,
     test_spacecraft::{DAY_S, simulated, sunlit, task},
-    torque::Attitude,
+    torque::{Attitude, SunlitSpacecraft},
     windows::{ControlBounds, Layout, WindowKind},
 };
 
@@ -69,12 +69,21 @@ impl Simulates for Integrated {
     fn progress(&mut self, _: &str) {}
 }
 
+fn solved(
+    task: &PlanTask,
+    sunlit: &SunlitSpacecraft,
+    simulated: &SimulatedFlight,
+    simulates: &mut dyn Simulates,
+) -> MomentumPlan {
+    plan(&PlanProblem { task, sunlit, simulated }, simulates).unwrap()
+}
+
 fn planned(task: &PlanTask, more_n_m: Vector3<f64>) -> (MomentumPlan, Integrated) {
     let sunlit = sunlit([0.01, 0.02, 0.03]);
     let simulated = simulated(&sunlit, 20, 0.4);
     let mut integrated =
         Integrated { sunlit: sunlit.clone(), simulated: simulated.clone(), more_n_m, echo: 0.0, flights: 0 };
-    let found = plan(task, &sunlit, &simulated, &mut integrated).unwrap();
+    let found = solved(task, &sunlit, &simulated, &mut integrated);
     (found, integrated)
 }
 
@@ -191,7 +200,7 @@ fn arrays_move_no_more_often_than_by_the_best_of_all_choices() {
             echo: 0.0,
             flights: 0,
         };
-        let found = plan(&task, &sunlit, &simulated, &mut integrated).unwrap();
+        let found = solved(&task, &sunlit, &simulated, &mut integrated);
         let (windows, _) = task.layout.windows(&sunlit, &simulated).unwrap();
         let start = Model::new(&sunlit, simulated, windows, task.limit.clone());
         assert!(found.holds && found.dumps.is_empty(), "{by_day:?}: {:?}", found.greatest_n_m_s());
@@ -206,7 +215,7 @@ fn arrays_move_no_more_often_than_by_the_best_of_all_choices() {
                 leader
             });
             let (leaders, mut model): (Vec<usize>, _) = (leaders.collect(), start.clone());
-            refine(&mut model, &sunlit, &leaders, (Goal::LeastExcess, WHOLE), &mut integrated).unwrap()
+            refine(&mut model, &leaders, (Goal::LeastExcess, WHOLE), &mut integrated).unwrap()
         });
         assert_eq!(kept, None, "{by_day:?}");
     }
@@ -327,7 +336,7 @@ mod downlinks {
                 ..task(5.0, control_bounds)
             };
             let simulated = edges.simulated.clone();
-            let found = plan(&task, &sunlit, &simulated, &mut edges).unwrap();
+            let found = solved(&task, &sunlit, &simulated, &mut edges);
             assert!(found.holds && found.dumps.is_empty() && found.changes == 0);
             let [planned, reached] = found.greatest_n_m_s();
             let least = edges.least_of_grid();

@@ -100,8 +100,8 @@ fn a_hyperbola_within_a_third_of_its_distance_over_speed_is_held_to_1e_9() {
         let middle_s = 0.5 * (span.start_s + span.end_s);
         let rest = transition(&method, Span::new(middle_s, span.end_s), gradient).unwrap();
         assert!(off(&partials.at(middle_s), &(back * rest)) < 1e-8);
-        assert_eq!(partials.at(span.start_s), *partials.at_start());
-        back = *partials.at_start();
+        assert_eq!(partials.at(span.start_s), partials.at_start);
+        back = partials.at_start;
     }
     let mut fine = Matrix6::identity();
     for piece in 0..900 {

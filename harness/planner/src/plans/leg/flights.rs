@@ -9,8 +9,12 @@ use physics::{
     environment::{CartesianState, frames::dcm_eme2000_from_ecliptic, orbit::BPlane},
 };
 
-use super::super::flights::{Requested, SimulatedMission};
-use crate::leg::{Approach, ApproachRow, Failure, SimulatesLeg};
+use super::super::flights::SimulatedMission;
+use crate::{
+    Failure,
+    leg::{Approach, ApproachRow, SimulatesLeg},
+    simulation::Flight,
+};
 
 /// Distance of rows about the arrival, in s.
 const ROW_S: f64 = 600.0;
@@ -45,7 +49,8 @@ pub(super) struct LegFlights<'a> {
     pub lead_s: f64,
     pub mu_m3_s2: f64,
     pub radius_m: f64,
-    at_arrival: CartesianState,
+    /// The planet at the arrival, from the Sun, EME2000.
+    pub at_arrival: CartesianState,
     /// Reports what is done.
     say: &'a dyn Fn(&str),
 }
@@ -85,7 +90,7 @@ impl<'a> LegFlights<'a> {
             lead_s: if lead_s.is_finite() { lead_s } else { LEAD_S },
             mu_m3_s2: f64::NAN,
             radius_m: f64::NAN,
-            at_arrival: CartesianState { position_m: Vector3::zeros(), velocity_m_s: Vector3::zeros() },
+            at_arrival: CartesianState::default(),
             say,
         };
         let north = dcm_eme2000_from_ecliptic() * Vector3::z();
@@ -93,11 +98,9 @@ impl<'a> LegFlights<'a> {
         let ahead = north.cross(&position_m).try_normalize(0.0).unwrap_or_else(Vector3::x);
         let circular_m_s = ahead * (GM_SUN_M3_S2 / distance_m).sqrt();
         let outputs = [&["encounter.position", "encounter.velocity"], &PLANET[..]].concat();
-        let (recording, error) =
-            flights.recorded(&circular_m_s, &outputs, (&[arrival_s], arrival_s), Vec::new())?;
-        if let Some(error) = error {
-            return Err(error.into());
-        }
+        let times = (&[arrival_s][..], arrival_s);
+        let recording =
+            flights.recorded(SimulatedMission::record, &circular_m_s, &outputs, times, Vec::new())?;
         [flights.mu_m3_s2, flights.radius_m] = PLANET.map(|name| number(&recording, name, 0));
         flights.at_arrival = CartesianState {
             position_m: vector(&recording, "encounter.position", 0),
@@ -106,25 +109,21 @@ impl<'a> LegFlights<'a> {
         Ok(flights)
     }
 
-    fn recorded(
+    /// Records a flight from a velocity at the start on, by `record` of the mission or `record_until`.
+    fn recorded<T>(
         &self,
+        record: fn(&SimulatedMission, &Flight<'_>) -> Result<T, Failure>,
         velocity_m_s: &Vector3<f64>,
         outputs: &[&str],
         (at_s, stop_s): (&[f64], f64),
         more: Vec<(String, Value)>,
-    ) -> Result<(Recording, Option<String>), Failure> {
-        let outputs: Vec<String> = outputs.iter().map(|name| (*name).to_owned()).collect();
+    ) -> Result<T, Failure> {
         let position = elements("orbit.position", self.position_m);
         let sets: Vec<_> = position.chain(elements("orbit.velocity", *velocity_m_s)).chain(more).collect();
         // Inputs change at the mission's steps alone; without any, a flight does not depend on them.
         let step_s = if self.mission.inputs.is_some() { self.mission.step_s } else { DAY_S };
-        self.mission.record_until(&Requested {
-            sets: &sets,
-            outputs: &outputs,
-            step_s: Some(step_s),
-            at_s: Some(at_s),
-            stop_s: Some(stop_s),
-        })
+        let (step_s, at_s, stop_s) = (Some(step_s), Some(at_s), Some(stop_s));
+        record(self.mission, &Flight { sets: &sets, outputs, step_s, at_s, stop_s, ..Flight::default() })
     }
 
     /// Paths from departure to arrival.
@@ -135,11 +134,8 @@ impl<'a> LegFlights<'a> {
         let (start_s, length_s) = (self.mission.start_s, self.arrival_s - self.mission.start_s);
         let times_s = (0..=PATH_ROWS).map(|k| start_s + length_s * f64::from(k) / f64::from(PATH_ROWS));
         let times_s: Vec<f64> = times_s.collect();
-        let (recording, error) =
-            self.recorded(velocity_m_s, &PATH, (&times_s, self.arrival_s), Vec::new())?;
-        if let Some(error) = error {
-            return Err(error.into());
-        }
+        let times = (&times_s[..], self.arrival_s);
+        let recording = self.recorded(SimulatedMission::record, velocity_m_s, &PATH, times, Vec::new())?;
         let rows = 0..recording.times_s.len();
         let [spacecraft_m, planet_m] =
             PATH.map(|name| rows.clone().map(|row| vector(&recording, name, row)).collect());
@@ -151,10 +147,6 @@ impl<'a> LegFlights<'a> {
 const LEAD_S: f64 = 21_600.0;
 
 impl SimulatesLeg for LegFlights<'_> {
-    fn body(&mut self, _: f64) -> Result<CartesianState, Failure> {
-        Ok(self.at_arrival)
-    }
-
     fn unattracted_m(&mut self, velocity_m_s: &Vector3<f64>) -> Result<Vector3<f64>, Failure> {
         let description = self.mission.fmu.description();
         let mut more = fmi::parse_assignment(description, "encounter.body=none")?;
@@ -163,8 +155,8 @@ impl SimulatesLeg for LegFlights<'_> {
             more.push((attracts, Value::Boolean(false)));
         }
         let times = (&[self.arrival_s][..], self.arrival_s);
-        let (recording, error) = self.recorded(velocity_m_s, &["position"], times, more)?;
-        error.map_or_else(|| Ok(vector(&recording, "position", 0)), |error| Err(error.into()))
+        let recording = self.recorded(SimulatedMission::record, velocity_m_s, &["position"], times, more)?;
+        Ok(vector(&recording, "position", 0))
     }
 
     fn approach(&mut self, velocity_m_s: &Vector3<f64>) -> Result<Approach, Failure> {
@@ -175,7 +167,9 @@ impl SimulatesLeg for LegFlights<'_> {
         times_s.push(stop_s);
         times_s.dedup();
         let outputs = [&ENCOUNTER[..], &PASSED].concat();
-        let (recording, error) = self.recorded(velocity_m_s, &outputs, (&times_s, stop_s), Vec::new())?;
+        let times = (&times_s[..], stop_s);
+        let (recording, error) =
+            self.recorded(SimulatedMission::record_until, velocity_m_s, &outputs, times, Vec::new())?;
         let rows = (0..recording.times_s.len()).map(|row| ApproachRow {
             time_s: recording.times_s[row],
             state: CartesianState {

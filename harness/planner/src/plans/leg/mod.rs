@@ -237,6 +237,7 @@ pub fn run(options: &FilePlan) -> Outcome {
             lead_s: flights.lead_s,
             revolutions: file.arrive.revolutions(),
             velocity_before_m_s: file.depart.velocity_before_m_s,
+            body: flights.at_arrival,
             mu_m3_s2: flights.mu_m3_s2,
             radius_m: flights.radius_m,
             tolerance_m: TOLERANCE_M,

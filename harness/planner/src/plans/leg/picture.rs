@@ -55,13 +55,7 @@ fn ecliptic(name: &str, body: &str, paths: &Paths) -> PlaneChart {
         half_width: 1.1 * farthest,
         ..PlanePanel::default()
     };
-    PlaneChart {
-        title: format!("{name}: leg to {body}"),
-        x_label: "x [AU]".to_owned(),
-        y_label: "y [AU]".to_owned(),
-        panels: vec![panel],
-        shading: None,
-    }
+    PlaneChart::new(format!("{name}: leg to {body}"), ["x [AU]", "y [AU]"], vec![panel])
 }
 
 fn b_plane(body: &str, task: &LegTask, leg: &Leg) -> PlaneChart {
@@ -83,11 +77,5 @@ fn b_plane(body: &str, task: &LegTask, leg: &Leg) -> PlaneChart {
         half_width: 1.3 * km(impact_m.max(found.b_m.norm())),
         ..PlanePanel::default()
     };
-    PlaneChart {
-        title: String::new(),
-        x_label: "B·T [km]".to_owned(),
-        y_label: "B·R [km]".to_owned(),
-        panels: vec![panel],
-        shading: None,
-    }
+    PlaneChart::new("", ["B·T [km]", "B·R [km]"], vec![panel])
 }

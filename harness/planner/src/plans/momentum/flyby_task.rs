@@ -1,19 +1,17 @@
-//! Encounter that a plan's flights aim at, and the miss of each.
-
-use inputs::{
-    leg::FlybyAimpoint,
-    plan::{PlanFile, keys::Flyby},
-};
-use nalgebra::Vector3;
+//! Task of a flyby by the plan file, the mission and its flight.
 
 use crate::{
     Failure,
     flyby::{
-        BPlaneAimpoint, ForceModel, Sensitivity,
+        BPlaneAimpoint, FlybyTask, ForceModel, Sensitivity,
         aimpoint::{b_of_periapsis_m, periapsis_of_b_m},
     },
-    momentum::{simulated::SimulatedFlight, target::Target, torque::SunlitSpacecraft},
+    momentum::{simulated::SimulatedFlight, torque::SunlitSpacecraft},
     plans::flights::SimulatedMission,
+};
+use inputs::{
+    leg::FlybyAimpoint,
+    plan::{PlanFile, keys::Flyby},
 };
 
 /// Encounter as the files give it before the first flight.
@@ -39,82 +37,44 @@ impl Aim {
     }
 }
 
-/// Encounter that a plan's flights aim at.
-#[derive(Clone, Debug)]
-pub(crate) struct FlybyTask {
-    pub(super) force_model: ForceModel,
-    pub(super) aimpoint: BPlaneAimpoint,
-    pub(super) tolerance_m: f64,
-    /// Radius of the planet, in m.
-    pub radius_m: f64,
-    /// Partials of the mission as it is.
-    pub first: Sensitivity,
-}
-
-impl FlybyTask {
-    /// By the flight of the mission as it is.
-    pub(super) fn new(
-        file: &PlanFile,
-        (flyby, Aim { force_model, arrival_s }): (&Flyby, Aim),
-        (mission, sunlit): (&SimulatedMission, &SunlitSpacecraft),
-        simulated: &SimulatedFlight,
-    ) -> Result<Self, Failure> {
-        let values = mission.values();
-        let shown = mission.mission.file.display();
-        let first =
-            Sensitivity::new(simulated, &force_model, sunlit).map_err(|error| format!("{shown}: {error}"))?;
-        let radius_m = values.real("planet.radius");
-        let excess_m_s = first.encounter.plane.excess_speed_m_s;
-        let gm_m3_s2 = force_model.gm_m3_s2;
-        let b_m = match flyby.aimpoint().map(|at| at.it) {
-            None => [first.encounter.plane.b_t_m, first.encounter.plane.b_r_m],
-            Some(FlybyAimpoint::Plane { b_t_m, b_r_m }) => [b_t_m, b_r_m],
-            Some(FlybyAimpoint::Altitude { altitude_m, angle_rad }) => {
-                // From the osculation on tides change B: by as much as in the flight of the mission as it is.
-                let simulated_m = first.encounter.plane.b_t_m.hypot(first.encounter.plane.b_r_m);
-                let [aimed_m, passed_m] = [radius_m + altitude_m, first.encounter.closest.position_m.norm()]
-                    .map(|radius_m| b_of_periapsis_m(radius_m, gm_m3_s2, excess_m_s));
-                let b_m = simulated_m + aimed_m - passed_m;
-                [b_m * angle_rad.cos(), b_m * angle_rad.sin()]
-            }
-        };
-        let periapsis_m = periapsis_of_b_m(b_m[0].hypot(b_m[1]), gm_m3_s2, excess_m_s);
-        if let Some(at) = flyby.aimpoint().filter(|_| periapsis_m < radius_m) {
-            let what = format!(
-                "found B of {:.1} and {:.1} km along T and R, whose periapsis lies {:.1} km inside of {}, allowed: from {:.1} km on",
-                b_m[0] / 1e3,
-                b_m[1] / 1e3,
-                (radius_m - periapsis_m) / 1e3,
-                force_model.body.data().name,
-                b_of_periapsis_m(radius_m, gm_m3_s2, excess_m_s) / 1e3,
-            );
-            return Err(file.problem(&at, &what).into());
+/// Task by the flight of the mission as it is.
+pub(super) fn flyby_task(
+    file: &PlanFile,
+    (flyby, Aim { force_model, arrival_s }): (&Flyby, Aim),
+    (mission, sunlit): (&SimulatedMission, &SunlitSpacecraft),
+    simulated: &SimulatedFlight,
+) -> Result<FlybyTask, Failure> {
+    let values = mission.values();
+    let shown = mission.mission.file.display();
+    let first =
+        Sensitivity::new(simulated, &force_model, sunlit).map_err(|error| format!("{shown}: {error}"))?;
+    let radius_m = values.real("planet.radius");
+    let excess_m_s = first.encounter.plane.excess_speed_m_s;
+    let gm_m3_s2 = force_model.gm_m3_s2;
+    let b_m = match flyby.aimpoint().map(|at| at.it) {
+        None => [first.encounter.plane.b_t_m, first.encounter.plane.b_r_m],
+        Some(FlybyAimpoint::Plane { b_t_m, b_r_m }) => [b_t_m, b_r_m],
+        Some(FlybyAimpoint::Altitude { altitude_m, angle_rad }) => {
+            // From the osculation on tides change B: by as much as in the flight of the mission as it is.
+            let simulated_m = first.encounter.plane.b_t_m.hypot(first.encounter.plane.b_r_m);
+            let [aimed_m, passed_m] = [radius_m + altitude_m, first.encounter.closest.position_m.norm()]
+                .map(|radius_m| b_of_periapsis_m(radius_m, gm_m3_s2, excess_m_s));
+            let b_m = simulated_m + aimed_m - passed_m;
+            [b_m * angle_rad.cos(), b_m * angle_rad.sin()]
         }
-        let aimpoint = BPlaneAimpoint { b_m, arrival_s };
-        Ok(Self { force_model, aimpoint, tolerance_m: flyby.tolerance_m, radius_m, first })
+    };
+    let periapsis_m = periapsis_of_b_m(b_m[0].hypot(b_m[1]), gm_m3_s2, excess_m_s);
+    if let Some(at) = flyby.aimpoint().filter(|_| periapsis_m < radius_m) {
+        let what = format!(
+            "found B of {:.1} and {:.1} km along T and R, whose periapsis lies {:.1} km inside of {}, allowed: from {:.1} km on",
+            b_m[0] / 1e3,
+            b_m[1] / 1e3,
+            (radius_m - periapsis_m) / 1e3,
+            force_model.body.data().name,
+            b_of_periapsis_m(radius_m, gm_m3_s2, excess_m_s) / 1e3,
+        );
+        return Err(file.problem(&at, &what).into());
     }
-
-    /// A square within the circle of the tolerance; the time that the spacecraft takes for it, where the arrival is fixed.
-    pub(super) fn target(&self) -> Target {
-        let side_m = self.tolerance_m * core::f64::consts::FRAC_1_SQRT_2;
-        let excess_m_s = self.first.encounter.plane.excess_speed_m_s;
-        let in_time = self.aimpoint.arrival_s.map(|_| self.tolerance_m / excess_m_s);
-        Target { tolerance: [Some(side_m), Some(side_m), in_time] }
-    }
-
-    /// Gives a flight its miss of the aimpoint.
-    pub(super) fn judge(
-        &self,
-        flight: &mut SimulatedFlight,
-        sunlit: &SunlitSpacecraft,
-    ) -> Result<Sensitivity, Failure> {
-        let found = Sensitivity::new(flight, &self.force_model, sunlit)?;
-        flight.encountered = Some(self.aimpoint.encountered(&found, &flight.rows));
-        Ok(found)
-    }
-
-    /// The miss of the mission as it is: along T and R in m, of the arrival in s.
-    pub(crate) fn first_miss(&self) -> Vector3<f64> {
-        self.aimpoint.miss(&self.first.encounter)
-    }
+    let aimpoint = BPlaneAimpoint { b_m, arrival_s };
+    Ok(FlybyTask { force_model, aimpoint, tolerance_m: flyby.tolerance_m, radius_m, first })
 }

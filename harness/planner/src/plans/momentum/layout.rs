@@ -14,7 +14,8 @@ use crate::{
         torque::SunlitSpacecraft,
         windows::{ControlBounds, Layout},
     },
-    plans::flights::{Requested, SimulatedMission},
+    plans::flights::SimulatedMission,
+    simulation::Flight,
 };
 
 /// Most windows of a plan.
@@ -62,6 +63,8 @@ const WITHIN_ZONE_RAD: f64 = 1e-4;
 
 /// Resolution of the ends of downlinks, in s.
 const END_S: f64 = 60.0;
+/// Output that says whether a downlink lasts.
+const ACTIVE: &str = "downlink.active";
 
 /// The downlinks of a flight, each up to the last minute in it.
 fn ended_within(mission: &SimulatedMission, simulated: &SimulatedFlight) -> Result<Vec<[f64; 2]>, Failure> {
@@ -75,10 +78,9 @@ fn ended_within(mission: &SimulatedMission, simulated: &SimulatedFlight) -> Resu
     };
     let found = simulated.downlinks_s();
     let times_s: Vec<f64> = found.iter().copied().flat_map(minutes).collect();
-    let active = ["downlink.active".to_owned()];
-    let recording =
-        mission.record(&Requested { outputs: &active, at_s: Some(&times_s), ..Requested::default() })?;
-    let is_active = numbers(&recording, &active[0])?;
+    let flight = Flight { outputs: &[ACTIVE], at_s: Some(&times_s), ..Flight::default() };
+    let recording = mission.record(&flight)?;
+    let is_active = numbers(&recording, ACTIVE)?;
     let minutes = || recording.times_s.iter().zip(&is_active);
     let ended = found.into_iter().filter_map(|[start_s, stop_s]| {
         let within = minutes().filter(|(at_s, is)| (start_s..stop_s).contains(*at_s) && **is != 0.0);

@@ -24,7 +24,6 @@ use isolation::interrupt;
 use physics::constants::DAY_S;
 
 use self::{
-    flyby_task::FlybyTask,
     planned::{NAMES, Planned},
     prepared::Prepared,
 };
@@ -38,7 +37,7 @@ use crate::{
     momentum::{
         attainable::least_excess_n_m_s,
         baseline::NoOffset,
-        plan::{MomentumPlan, PlanError, plan},
+        plan::{MomentumPlan, PlanError, PlanProblem, plan},
         report::{self, PlanEvent},
         windows::{Window, WindowKind},
     },
@@ -99,20 +98,20 @@ pub fn run(options: &FilePlan) -> Outcome {
         flyby::check(&planned, flyby_task)?;
         if !planned.file.has_aim() {
             let report = flyby::without_aim(&planned, flyby_task)?;
-            without_plan(&planned, "withoutAim", (&report, flyby_task), Vec::new())?;
+            without_plan(&planned, "withoutAim", &report, Vec::new())?;
             return Ok(Answer::Yes);
         }
         let report = flyby::before(&planned, flyby_task)?;
         if report.is_out_of_reach {
             let contents =
                 vec![(NAMES[4], drawn(None, Some(&report))?), (flyby::NAMES[0], report.desired_csv())];
-            without_plan(&planned, "notFound", (&report, flyby_task), contents)?;
+            without_plan(&planned, "notFound", &report, contents)?;
             return Ok(Answer::No);
         }
-        encounter = Some((report, flyby_task));
+        encounter = Some(report);
     }
     let mut simulates = &planned;
-    let found = plan(&planned.task, &planned.sunlit, &planned.simulated, &mut simulates);
+    let found = plan(&planned.problem(), &mut simulates);
     if interrupt::raised() {
         return Ok(Answer::Interrupted);
     }
@@ -125,22 +124,18 @@ pub fn run(options: &FilePlan) -> Outcome {
 }
 
 /// Writes a plan that was found, and reports what came of it.
-fn answer(
-    planned: &Planned<'_>,
-    found: &MomentumPlan,
-    mut encounter: Option<(FlybyReport, &FlybyTask)>,
-) -> Outcome {
-    let (file, options) = (&planned.file, planned.options);
-    let prices = prices::all(file, planned, found)?;
+fn answer(planned: &Planned<'_>, found: &MomentumPlan, mut encounter: Option<FlybyReport<'_>>) -> Outcome {
+    let options = planned.options;
+    let prices = prices::all(planned, found)?;
     let events = events(planned, found);
     let table = input_table::text(planned, found);
     let seeds = planned.simulate_seeds(&found.windows, &found.dumps)?;
     let mut of_flyby = Vec::new();
-    if let Some((report, flyby_task)) = &mut encounter {
-        let [sensitivity, partials] = flyby::complete(report, file, (planned, flyby_task), found)?;
+    if let Some(report) = &mut encounter {
+        let [sensitivity, partials] = flyby::complete(report, planned, found)?;
         of_flyby = flyby::NAMES.into_iter().zip([report.desired_csv(), sensitivity, partials]).collect();
     }
-    let report = encounter.as_ref().map(|(report, _)| report);
+    let report = encounter.as_ref();
     let chart = picture::chart(&planned.sunlit.spacecraft.name, found, &planned.task);
     let picture = drawn(Some(&chart), report)?;
     let more = report.map(FlybyReport::members);
@@ -169,7 +164,7 @@ fn answer(
         }
     }
     if found.exceeded.is_some()
-        && let Some(what) = full_contacts(file, planned, found)
+        && let Some(what) = full_contacts(planned, found)
     {
         return outcome::no(&what);
     }
@@ -198,11 +193,11 @@ fn no_offset(planned: &Planned<'_>, none: &NoOffset) -> Outcome {
 fn without_plan(
     planned: &Planned<'_>,
     status: &str,
-    (report, flyby_task): (&FlybyReport, &FlybyTask),
+    report: &FlybyReport<'_>,
     mut contents: Vec<(&'static str, String)>,
 ) -> Result<(), Failure> {
     contents.push((NAMES[5], report::without_plan_json(status, report.members())?));
-    contents.push((flyby::NAMES[2], partials_csv(&flyby_task.first, &planned.simulated)));
+    contents.push((flyby::NAMES[2], partials_csv(&report.task.first, &planned.simulated)));
     write(planned, &contents)?;
     if !planned.options.quiet {
         terminal::print(&flyby::summary(report).join("\n"))?;
@@ -211,7 +206,7 @@ fn without_plan(
 }
 
 /// `plan.svg`.
-fn drawn(chart: Option<&Chart>, report: Option<&FlybyReport>) -> Result<String, DrawingError> {
+fn drawn(chart: Option<&Chart>, report: Option<&FlybyReport<'_>>) -> Result<String, DrawingError> {
     let of_flyby = report.map(|report| (flyby::plane(report), flyby::desired(report)));
     let mut all: Vec<&dyn Picture> = chart.iter().map(|chart| *chart as &dyn Picture).collect();
     if let Some((plane, desired)) = &of_flyby {
@@ -222,13 +217,13 @@ fn drawn(chart: Option<&Chart>, report: Option<&FlybyReport>) -> Result<String, 
 }
 
 /// Problem of contacts that leave no time for an alternation without which there is no plan.
-fn full_contacts(file: &PlanFile, planned: &Planned<'_>, found: &MomentumPlan) -> Option<String> {
+fn full_contacts(planned: &Planned<'_>, found: &MomentumPlan) -> Option<String> {
     let full = |window: &&Window| window.kind == WindowKind::Free && window.free_of_contact.is_empty();
     let window = found.windows.iter().find(full)?;
     let mut task = planned.task.clone();
     task.layout.contacts_s.clear();
-    let needs = least_excess_n_m_s(&task, &planned.sunlit, &planned.simulated, f64::NEG_INFINITY);
-    let at = file.contacts.it.iter().find(|at| {
+    let needs = least_excess_n_m_s(&PlanProblem { task: &task, ..planned.problem() }, f64::NEG_INFINITY);
+    let at = planned.file.contacts.it.iter().find(|at| {
         let span = [at.it.start, at.it.stop].map(|instant| planned.mission.time_s(instant));
         matches!(span, [Some(from_s), Some(to_s)] if from_s < window.stop_s && to_s > window.start_s)
     })?;
@@ -240,7 +235,7 @@ fn full_contacts(file: &PlanFile, planned: &Planned<'_>, found: &MomentumPlan) -
     let what = format!(
         "found contacts that fill the window from day {from_d:.1} to {to_d:.1}, allowed: some time without contact: no plan was found without alternation there"
     );
-    Some(file.problem(at, &what))
+    Some(planned.file.problem(at, &what))
 }
 
 fn events(planned: &Planned<'_>, found: &MomentumPlan) -> Vec<PlanEvent> {

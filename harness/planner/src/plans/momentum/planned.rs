@@ -1,6 +1,6 @@
 //! A mission with what a plan needs of it, and its flights.
 
-use std::path::Path;
+use std::{ops::Deref, path::Path};
 
 use ::files::Scratch;
 use inputs::plan::{PlanFile, keys::Activity};
@@ -8,20 +8,19 @@ use nalgebra::{Matrix4, Vector3};
 
 use super::{
     super::{flights::SimulatedMission, options::FilePlan, progress::Progress},
-    flyby_task::FlybyTask,
-    layout::orbit_layout,
+    flyby_task::flyby_task,
+    layout::{orbit_layout, sets_of},
     prepared::Prepared,
-    timeline::MissionTimeline,
     update::updated,
     written,
 };
 use crate::{
     Failure,
+    flyby::FlybyTask,
     momentum::{
         Convention, Limit,
-        plan::{Least, PlanTask, PlannedDump, Simulates},
+        plan::{Least, PlanProblem, PlanTask, PlannedDump, Simulates},
         simulated::SimulatedFlight,
-        torque::SunlitSpacecraft,
         windows::{Window, WindowKind},
     },
 };
@@ -33,20 +32,23 @@ pub(super) const NAMES: [&str; 6] =
 /// A mission with what a plan needs of it.
 pub(super) struct Planned<'a> {
     pub options: &'a FilePlan,
-    /// The plan file, its times by the clock of `mission`.
-    pub file: PlanFile,
-    pub mission: SimulatedMission,
-    pub timeline: MissionTimeline,
-    pub sunlit: SunlitSpacecraft,
+    /// The plan file, its times by the clock of the mission, and what it names.
+    prepared: Prepared,
     pub simulated: SimulatedFlight,
     /// Aim of a plan with a flyby.
     pub flyby_task: Option<FlybyTask>,
     pub task: PlanTask,
-    /// Values that a refit gives.
-    pub sets: Vec<(String, Vec<f64>)>,
     pub progress: Progress,
     // The folder of an updated mission, as long as it is in use.
     _folder: Option<Scratch>,
+}
+
+impl Deref for Planned<'_> {
+    type Target = Prepared;
+
+    fn deref(&self) -> &Prepared {
+        &self.prepared
+    }
 }
 
 impl<'a> Planned<'a> {
@@ -63,50 +65,44 @@ impl<'a> Planned<'a> {
             prepared.file.update.clone_from(&file.update);
             keeps = Some(folder);
         }
-        let Prepared { file, mission, timeline, sunlit, refit, sets, aim, cruise } = prepared;
+        let (aim, cruise) = (prepared.aim.take(), prepared.cruise.take());
+        let Prepared { file, mission, timeline, sunlit, refit, .. } = &prepared;
         let mut simulated = mission.simulate(None)?;
         let flyby_task = file
             .flyby
             .as_ref()
             .zip(aim)
-            .map(|(at, aim)| FlybyTask::new(&file, (&at.it, aim), (&mission, &sunlit), &simulated));
+            .map(|(at, aim)| flyby_task(file, (&at.it, aim), (mission, sunlit), &simulated));
         let flyby_task = flyby_task.transpose()?;
         simulated.encountered =
             flyby_task.as_ref().map(|it| it.aimpoint.encountered(&it.first, &simulated.rows));
         let layout = match cruise {
             Some(layout) => layout,
-            None => orbit_layout(&file, &mission, &timeline, &simulated)?,
+            None => orbit_layout(file, mission, timeline, &simulated)?,
         };
         let limit = Limit {
             momentum_n_m_s: file.momentum.limit_n_m_s.unwrap_or_else(|| mission.least_threshold_n_m_s()),
             size: mission.convention().into(),
             margin: file.momentum.margin,
-            covariance: refit.map(|it| Matrix4::from(it.covariance).transpose()),
+            covariance: refit.as_ref().map(|it| Matrix4::from(it.covariance).transpose()),
         };
         let least = if mission.is_in_orbit() { Least::Momentum } else { Least::Tilt };
         let target = flyby_task.as_ref().map(FlybyTask::target);
         let (dumps, budget_s) = (file.momentum.dumps as usize, options.budget_s);
         let task = PlanTask { layout, limit, dumps, least, budget_s, target };
-        Ok(Self {
-            options,
-            file,
-            mission,
-            timeline,
-            sunlit,
-            simulated,
-            flyby_task,
-            task,
-            sets,
-            progress,
-            _folder: keeps,
-        })
+        Ok(Self { options, prepared, simulated, flyby_task, task, progress, _folder: keeps })
     }
 }
 
 impl Planned<'_> {
+    /// The mission to plan.
+    pub(super) fn problem(&self) -> PlanProblem<'_> {
+        PlanProblem { task: &self.task, sunlit: &self.sunlit, simulated: &self.simulated }
+    }
+
     /// Momentum after a dump, body frame, in N m s.
     pub(super) fn body(&self, windows: &[Window], dump: &PlannedDump) -> Vector3<f64> {
-        crate::momentum::plan::body_momentum_n_m_s(&self.sunlit, &self.simulated, windows, dump)
+        self.problem().body_momentum_n_m_s(windows, dump)
     }
 
     /// Writes timeline and mission of a plan into a folder.
@@ -122,7 +118,7 @@ impl Planned<'_> {
         let panels = if self.mission.is_in_orbit() { 0 } else { self.sunlit.panels.len() };
         let start = self.start_momentum_body_n_m_s(windows);
         let start = start.map(|it| ("start.momentum".to_owned(), it.as_slice().to_vec()));
-        let sets: Vec<_> = self.sets.iter().cloned().chain(start).collect();
+        let sets: Vec<_> = self.refit.iter().flat_map(sets_of).chain(start).collect();
         let mission = written::mission(&self.mission, folder, panels, &sets)?;
         Ok([(NAMES[0], text), (NAMES[1], mission)])
     }

@@ -29,8 +29,6 @@ pub(super) struct Prepared {
     pub timeline: MissionTimeline,
     pub sunlit: SunlitSpacecraft,
     pub refit: Option<RefitValues>,
-    /// Values that the refit gives.
-    pub sets: Vec<(String, Vec<f64>)>,
     /// Encounter of a plan with a flyby.
     pub aim: Option<Aim>,
     /// Windows in cruise. In an orbit phase a flight shows its downlinks; with `[update]` the mission changes.
@@ -44,8 +42,7 @@ impl Prepared {
     /// Whatever is refused, by the plan's line.
     pub(super) fn new(file: &PlanFile, template: Option<&Path>) -> Result<Self, Failure> {
         let refit = file.momentum.refit.as_ref().map(|at| refit(file, at)).transpose()?;
-        let sets: Vec<(String, Vec<f64>)> = refit.iter().flat_map(sets_of).collect();
-        let settings = sets.iter().map(|(name, values)| {
+        let settings = refit.iter().flat_map(sets_of).map(|(name, values)| {
             let values: Vec<String> = values.iter().map(f64::to_string).collect();
             format!("{name}={}", values.join(","))
         });
@@ -89,7 +86,7 @@ impl Prepared {
         }
         let cruise = (!is_in_orbit && !is_updated).then(|| layout(&file, &mission, &timeline, &sunlit));
         let cruise = cruise.transpose()?;
-        Ok(Self { file, mission, timeline, sunlit, refit, sets, aim, cruise })
+        Ok(Self { file, mission, timeline, sunlit, refit, aim, cruise })
     }
 }
 

@@ -16,10 +16,8 @@ use toml_edit::{DocumentMut, Item, value};
 
 use crate::{
     Failure,
-    plans::{
-        flights::{Requested, SimulatedMission},
-        mission_text,
-    },
+    plans::{flights::SimulatedMission, mission_text},
+    simulation::Flight,
 };
 
 /// The timeline of an updated mission.
@@ -132,14 +130,8 @@ fn state_at(mission: &SimulatedMission, at_s: f64) -> Result<[Vector3<f64>; 3], 
         return Ok([start("orbit.position"), start("orbit.velocity"), start("start.momentum")]);
     }
     let sets: Vec<_> = elements("dump.threshold", Vector3::repeat(NEVER_N_M_S)).collect();
-    let outputs = STATE.map(str::to_owned);
-    let stop_s = at_s.max(mission.start_s + 1.0);
-    let recording = mission.record(&Requested {
-        sets: &sets,
-        outputs: &outputs,
-        stop_s: Some(stop_s),
-        ..Requested::default()
-    })?;
+    let stop_s = Some(at_s.max(mission.start_s + 1.0));
+    let recording = mission.record(&Flight { sets: &sets, outputs: &STATE, stop_s, ..Flight::default() })?;
     // The first row where the mission starts there, else the last.
     let row = if at_s <= mission.start_s { 0 } else { recording.times_s.len().saturating_sub(1) };
     let vector = |name: &str| -> Result<Vector3<f64>, Failure> {

@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use campaign::run::{Run, Simulated};
 use fmi::{Ended, InputTable, Value};
-use inputs::variables::{NEVER_N_M_S, elements, item, numbers, real, vectors};
+use inputs::variables::{NEVER_N_M_S, elements, numbers, real, vectors};
 use model_description::Description;
 use nalgebra::Vector3;
 use packing::assembly::spacecraft_of;
@@ -14,6 +14,7 @@ use terminal::ProgressBar;
 use super::options::Refit;
 use crate::{
     Failure,
+    momentum::plant::StartValues,
     refit::{FITTED, Flights, History, MOMENTUM, Parameters, Telemetry},
     simulation::{Flight, Simulation},
 };
@@ -54,7 +55,7 @@ impl RefitMission {
         let simulated = Simulated::new(&run)?;
         let mut simulation = Simulation::open(&simulated, &format!("a {MODEL}"))?;
         let Simulation { fmu, sets, inputs, step_s, .. } = &mut simulation;
-        check_plant(&file, fmu.description(), sets)?;
+        check_plant(&file, &StartValues { description: fmu.description(), sets })?;
         check_inputs(&file, fmu.description(), inputs.as_ref())?;
         let is_drawn = |name: &str| fmu.variable(name).is_ok_and(|it| fmi::set_early(it).is_ok());
         let drawn = DRAWN.iter().filter(|name| is_drawn(name));
@@ -109,12 +110,12 @@ impl Flights for RefitMission {
         let before_s = self.simulated_s.get();
         let flown = self.simulation.fly(&Flight {
             sets: &sets,
-            outputs: &["momentum.inertial", DUMPS].map(str::to_owned),
-            step_s: step_s.min(last_s - start_s),
+            outputs: &["momentum.inertial", DUMPS],
+            step_s: Some(step_s.min(last_s - start_s)),
             at_s: Some(times_s),
-            stop_s: last_s,
+            stop_s: Some(last_s),
             dumps_apart: false,
-            progress: &|time_s| self.bar.set_position((before_s + time_s - start_s) as u64),
+            progress: Some(&|time_s| self.bar.set_position((before_s + time_s - start_s) as u64)),
         })?;
         self.simulated_s.set(before_s + last_s - start_s);
         let recording = flown.recording;
@@ -134,9 +135,9 @@ impl Flights for RefitMission {
 }
 
 /// A plant whose attitude is followed whatever the momentum is.
-fn check_plant(file: &str, description: &Description, sets: &[(String, Value)]) -> Result<(), String> {
-    let model = &description.model_name;
-    let variable = |name: &str| description.variables.iter().find(|it| it.name == name);
+fn check_plant(file: &str, values: &StartValues<'_>) -> Result<(), String> {
+    let model = &values.description.model_name;
+    let variable = |name: &str| values.description.variables.iter().find(|it| it.name == name);
     let names = [SOURCE, STRATEGY, DUMPS].into_iter().chain(FITTED).chain(MOMENTUM);
     if let Some(name) = names.into_iter().find(|name| variable(name).is_none()) {
         return Err(format!("{file}: {model} has no variable {name}, allowed: a {MODEL}"));
@@ -147,13 +148,13 @@ fn check_plant(file: &str, description: &Description, sets: &[(String, Value)]) 
             "{file}: {name}: found a constant of {model} (`pack --fix`), allowed: a parameter"
         ));
     }
-    let source = item(description, sets, SOURCE);
+    let source = values.item(SOURCE);
     if let Some(found @ ("controlled" | "free")) = source {
         return Err(format!(
             "{file}: {SOURCE}: found {found}, allowed: guided, commanded, in which momentum is linear in what is fitted"
         ));
     }
-    let strategy = item(description, sets, STRATEGY);
+    let strategy = values.item(STRATEGY);
     if let (Some("guided"), Some(found @ ("reactive" | "predictive"))) = (source, strategy) {
         return Err(format!(
             "{file}: {STRATEGY}: found {found}, allowed: dumpsOnly: the attitude that the spacecraft had must not follow the \

@@ -13,7 +13,7 @@ use files::{
 };
 use isolation::interrupt;
 
-use crate::refit::{Deviations, Requested, Telemetry, fit};
+use crate::refit::{Requested, Telemetry, fit};
 use flights::RefitMission;
 pub use options::Refit;
 use table::Found;
@@ -25,16 +25,11 @@ pub fn run(arguments: &Refit) -> Outcome {
     let destinations = destinations(arguments, &simulated.reads())?;
     let telemetry_file = arguments.telemetry.display().to_string();
     mission.check_times(&telemetry_file, &telemetry)?;
-    let deviations = Deviations {
-        noise_n_m_s: arguments.noise,
-        center_of_mass_m: arguments.prior_center,
-        solar_scale: arguments.prior_scale,
-    };
-    let prior = mission.prior()?;
+    let requested =
+        Requested { telemetry: &telemetry, prior: mission.prior()?, deviations: arguments.deviations };
     let spacecraft = mission.spacecraft_name()?;
     let span_s = mission.span_s(&telemetry);
     mission.bar = terminal::progress(span_s as u64, "s of flights", arguments.quiet);
-    let requested = Requested { telemetry: &telemetry, prior, deviations };
     let bar = mission.bar.clone();
     let fitted =
         fit(&mission, &requested, &mut |_, expected| bar.set_length((expected as f64 * span_s) as u64));
@@ -46,15 +41,14 @@ pub fn run(arguments: &Refit) -> Outcome {
     let found = Found {
         mission: arguments.mission.display().to_string(),
         telemetry: telemetry_file,
-        prior,
-        deviations,
+        requested: &requested,
         fitted: &fitted,
     };
-    let contents = [found.toml(), fitted.to_json(&spacecraft)?, picture::svg(&found, &telemetry)?];
+    let contents = [found.toml(), fitted.to_json(&spacecraft)?, picture::svg(&found)?];
     if !arguments.quiet {
         terminal::print(&found.text())?;
     }
-    if let Some(warning) = found.warning(&telemetry.lines) {
+    if let Some(warning) = found.warning() {
         terminal::note(&warning);
     }
     outcome::write_all(destinations.into_iter().zip(contents), arguments.quiet)?;

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::refit::Deviations;
+
 /// Request of `heliotorque refit`.
 #[derive(Clone, Debug)]
 pub struct Refit {
@@ -9,12 +11,8 @@ pub struct Refit {
     pub mission: PathBuf,
     /// History of momentum.
     pub telemetry: PathBuf,
-    /// Standard deviation of each component of momentum, in N m s.
-    pub noise: f64,
-    /// Standard deviation of the centre of mass, in m.
-    pub prior_center: f64,
-    /// Standard deviation of `solar.scale`.
-    pub prior_scale: f64,
+    /// How sure history and mission are.
+    pub deviations: Deviations,
     /// File or folder to write.
     pub output: PathBuf,
     /// FMU whose library reads the files.

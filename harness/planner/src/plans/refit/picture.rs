@@ -5,7 +5,6 @@ use nalgebra::Vector3;
 use physics::constants::DAY_S;
 
 use super::table::Found;
-use crate::refit::Telemetry;
 
 /// Deviations of the noise that are marked.
 const MARKED: f64 = 3.0;
@@ -15,8 +14,9 @@ const AXES: [&str; 3] = ["X", "Y", "Z"];
 ///
 /// # Errors
 /// Nothing to draw.
-pub(super) fn svg(found: &Found<'_>, telemetry: &Telemetry) -> Result<String, DrawingError> {
-    let (fitted, measured) = (found.fitted, &telemetry.momentum_inertial_n_m_s);
+pub(super) fn svg(found: &Found<'_>) -> Result<String, DrawingError> {
+    let (fitted, telemetry) = (found.fitted, found.requested.telemetry);
+    let measured = &telemetry.momentum_inertial_n_m_s;
     let broken = |value: &dyn Fn(usize) -> f64| -> Vec<(f64, f64)> {
         let mut points = Vec::with_capacity(measured.len() + fitted.arcs.len());
         for arc in &fitted.arcs {
@@ -33,7 +33,7 @@ pub(super) fn svg(found: &Found<'_>, telemetry: &Telemetry) -> Result<String, Dr
             Series::curve("fit", broken(&|row| measured[row][axis] - residual(row)[axis])),
         ])
     });
-    let bound_n_m_s = MARKED * found.deviations.noise_n_m_s;
+    let bound_n_m_s = MARKED * found.requested.deviations.noise_n_m_s;
     let residuals = (0..3).map(|axis| {
         Panel::new(format!("{} residual [N·m·s]", AXES[axis]))
             .with([Series::curve("telemetry less fit", broken(&|row| residual(row)[axis]))])

@@ -2,30 +2,21 @@
 
 use std::fmt::Write;
 
-use fmi::csv::Real;
-use nalgebra::Vector4;
-
 use crate::{
-    refit::{Deviations, Direction, Fitted, Parameters},
+    refit::{Direction, Fitted, Requested},
     text_table::headed,
 };
+use fmi::csv::Real;
 
 /// Results of the fit.
 pub(super) struct Found<'a> {
     pub mission: String,
     pub telemetry: String,
-    pub prior: Parameters,
-    pub deviations: Deviations,
+    pub requested: &'a Requested<'a>,
     pub fitted: &'a Fitted,
 }
 
 impl Found<'_> {
-    /// In the order centre of mass X, Y, Z, scale.
-    fn prior_deviations(&self) -> Vector4<f64> {
-        let center_m = self.deviations.center_of_mass_m;
-        Vector4::new(center_m, center_m, center_m, self.deviations.solar_scale)
-    }
-
     /// Root mean square of the residuals, in N m s.
     fn rms_n_m_s(&self) -> f64 {
         let rows = self.fitted.residuals_n_m_s.len().max(1) as f64;
@@ -42,7 +33,8 @@ impl Found<'_> {
         let mut table = headed(" | prior | deviation | found | deviation");
         let names =
             ["centre of mass X [mm]", "centre of mass Y [mm]", "centre of mass Z [mm]", "solar.scale"];
-        let (prior, prior_deviations) = (self.prior.values(), self.prior_deviations());
+        let (prior, prior_deviations) =
+            (self.requested.prior.values(), self.requested.deviations.of_parameters());
         let (found, deviations) = (self.fitted.parameters.values(), self.fitted.deviations());
         for at in 0..4 {
             let (factor, digits) = if at < 3 { (1e3, 4) } else { (1.0, 6) };
@@ -68,7 +60,7 @@ impl Found<'_> {
     fn directions(&self) -> String {
         let mut table =
             headed("X | Y | Z | scale | sigma | sigma [mm] | sigma [% of scale] | determined").narrow();
-        let prior_deviations = self.prior_deviations();
+        let prior_deviations = self.requested.deviations.of_parameters();
         for it in &self.fitted.directions {
             let sigma = it.vector.component_mul(&prior_deviations) * it.sigma;
             let parts = it.vector.as_slice().iter().map(|part| format!("{part:.4}"));
@@ -92,7 +84,7 @@ impl Found<'_> {
             let [x, y, z] = [0, 1, 2].map(|at| direction.vector[at]);
             return format!("the centre of mass along ({x:.3}, {y:.3}, {z:.3}) of the body frame");
         }
-        let moved = direction.vector.component_mul(&self.prior_deviations());
+        let moved = direction.vector.component_mul(&self.requested.deviations.of_parameters());
         let [x, y, z] = [0, 1, 2].map(|at| 1e3 * 0.01 * moved[at] / moved.w);
         format!("solar.scale with the centre of mass: ({x:.3}, {y:.3}, {z:.3}) mm undo each 1 % more of it")
     }
@@ -102,12 +94,12 @@ impl Found<'_> {
         format!(
             "chi square {chi_square:.1} for {freedom} degrees of freedom; residuals {} N.m.s rms, --noise {} N.m.s",
             terminal::short(rounded(self.rms_n_m_s())),
-            terminal::short(self.deviations.noise_n_m_s)
+            terminal::short(self.requested.deviations.noise_n_m_s)
         )
     }
 
     /// Warning about residuals that do not fit the noise; `lines` are those of the rows in the telemetry.
-    pub(super) fn warning(&self, lines: &[u64]) -> Option<String> {
+    pub(super) fn warning(&self) -> Option<String> {
         if self.fitted.is_overcautious() {
             return Some(
                 "warning: less than the noise is left: --noise is too high, or rows are smoothed; the deviations are wider than the \
@@ -123,7 +115,7 @@ impl Found<'_> {
                  deviations are not to be trusted (trusted = false), and `plan` refuses them",
                 terminal::short(rounded(self.fitted.chi_square / self.fitted.degrees_of_freedom.max(1) as f64)),
                 self.telemetry,
-                lines.get(row).copied().unwrap_or_default(),
+                self.requested.telemetry.lines.get(row).copied().unwrap_or_default(),
                 terminal::short(rounded(residual_n_m_s)),
             )
         })

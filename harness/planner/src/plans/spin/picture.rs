@@ -5,7 +5,7 @@ use core::f64::consts::{PI, TAU};
 use drawing::{Chart, DrawingError, Panel, PlaneChart, PlanePanel, Series};
 use nalgebra::Vector3;
 
-use crate::spin::{PlannedBurn, right_ascension_declination_deg};
+use crate::spin::{PlannedBurn, right_ascension_declination};
 
 /// Points of a curve.
 const POINTS: u32 = 180;
@@ -173,19 +173,14 @@ fn sphere(burn: &PlannedBurn) -> PlaneChart {
     let mut bodies = vec![("Sun", geometry.sun_inertial)];
     bodies.extend(geometry.earth_inertial.map(|earth| ("Earth", earth)));
     let ends = [("start", geometry.axis_inertial), ("target", geometry.target_inertial)];
-    let (right_ascension_deg, declination_deg) = right_ascension_declination_deg(&map.middle);
+    let middle = right_ascension_declination(&map.middle);
     let whole = panel("the whole sphere", WHOLE_DEG, bodies.clone());
     let near = panel("the turn", close_deg, ends.into_iter().chain(bodies).collect());
-    PlaneChart {
-        title: format!(
-            "{}: spin axis, about right ascension {right_ascension_deg:.2} deg, declination {declination_deg:.2} deg",
-            burn.name
-        ),
-        x_label: "east [deg]".to_owned(),
-        y_label: "north [deg]".to_owned(),
-        panels: vec![whole, near],
-        shading: None,
-    }
+    let title = format!(
+        "{}: spin axis, about right ascension {:.2} deg, declination {:.2} deg",
+        burn.name, middle.right_ascension_deg, middle.declination_deg
+    );
+    PlaneChart::new(title, ["east [deg]", "north [deg]"], vec![whole, near])
 }
 
 fn nutation(burn: &PlannedBurn) -> Chart {

@@ -16,7 +16,7 @@ use crate::spin::{
     frontier,
     limit_checks::{broken, check_limits},
     options::ACE,
-    right_ascension_declination_deg, start_values, timing_label, trade, uniform_plan, verify,
+    right_ascension_declination, start_values, timing_label, trade, uniform_plan, verify,
 };
 
 /// Ratios simulated through the FMU.
@@ -130,7 +130,7 @@ fn head(task: &Task) -> Vec<String> {
         format!(
             "Turn by {:.4} deg with {} ({:.3} N m), pulses by {}, ratio {:.4} +- {:.4}, {:.3} +- {:.3} rpm",
             task.angle_rad.to_degrees(),
-            task.thruster,
+            task.actuator.name,
             task.case.torque_n_m,
             timing_label(task.case.timing),
             spin.ratio,
@@ -178,8 +178,8 @@ fn ways(PlannedBurn { task, flight, .. }: &PlannedBurn) -> Vec<String> {
 
 /// Right ascension and declination of a direction.
 fn place(direction: &nalgebra::Vector3<f64>) -> String {
-    let (right_ascension_deg, declination_deg) = right_ascension_declination_deg(direction);
-    format!("{right_ascension_deg:.4}, {declination_deg:.4} deg")
+    let place = right_ascension_declination(direction);
+    format!("{:.4}, {:.4} deg", place.right_ascension_deg, place.declination_deg)
 }
 
 fn way(way: &Way) -> String {

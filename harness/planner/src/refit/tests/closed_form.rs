@@ -2,7 +2,10 @@
 
 use nalgebra::Vector3;
 
-use crate::refit::{Deviations, Failure, Fitted, Flights, History, Parameters, Requested, Telemetry, fit};
+use crate::{
+    Failure,
+    refit::{Deviations, Fitted, Flights, History, Parameters, Requested, Telemetry, fit},
+};
 
 const RATE_RAD_S: f64 = 1e-6;
 const HALF_S: f64 = 4e5;

@@ -21,7 +21,10 @@ use physics::{
     spacecraft::{MESSENGER_TOML, MassProperties, Spacecraft, SunshadeModel},
 };
 
-use crate::refit::{Failure, Flights, History, Parameters};
+use crate::{
+    Failure,
+    refit::{Flights, History, Parameters},
+};
 
 use super::DAY_S;
 

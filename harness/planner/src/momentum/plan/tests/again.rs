@@ -29,7 +29,7 @@ fn planning_again_within_the_guard_of_the_limit_is_never_worse() {
     let mut flies = integrated(0.0);
     let (sunlit, bare) = (flies.sunlit.clone(), flies.simulated.clone());
     let task = task(3.0, all_controls());
-    let first = plan(&task, &sunlit, &bare, &mut flies).unwrap();
+    let first = solved(&task, &sunlit, &bare, &mut flies);
     assert!(first.holds && !first.is_mission);
     let own: Vec<ActiveControls> =
         first.windows.iter().map(|it| ActiveControls { at_s: it.start_s, controls: it.controls }).collect();
@@ -44,7 +44,7 @@ fn planning_again_within_the_guard_of_the_limit_is_never_worse() {
         let limit = Limit { momentum_n_m_s: 1.002 * greatest_n_m_s, ..task.limit.clone() };
         let again = PlanTask { layout, limit, ..task.clone() };
         let mut flies = Integrated { simulated: first.flight.clone(), ..integrated(0.0) };
-        let found = plan(&again, &sunlit, &first.flight, &mut flies).unwrap();
+        let found = solved(&again, &sunlit, &first.flight, &mut flies);
         let behind = first.windows.windows(2).filter(|pair| pair[1].start_s > from_d * DAY_S - 1.0);
         let moves = behind.filter(|pair| {
             [Control::Offset, Control::Windmill]
@@ -76,7 +76,7 @@ fn without_a_corridor_the_arrays_stay_where_the_mission_has_them() {
     let (mut windows, _) = task.layout.windows(&sunlit, &bare).unwrap();
     windows.iter_mut().for_each(|it| it.controls = at(best_deg));
     let simulated = flies.simulate(&windows, &[]).unwrap();
-    let found = plan(&task, &sunlit, &simulated, &mut flies).unwrap();
+    let found = solved(&task, &sunlit, &simulated, &mut flies);
     assert!(found.holds && found.dumps.is_empty() && found.changes == 0, "{:?}", found.greatest_n_m_s());
     assert_eq!(found.baseline.len(), 1);
     assert!((found.baseline[0].offset_rad - best_deg.to_radians()).abs() < 1e-12);
@@ -89,7 +89,7 @@ fn plans_are_judged_by_their_flights_and_corrections_are_damped() {
     let task = task(2.5, control_bounds);
     let mut flies = integrated(1.0);
     let (sunlit, bare) = (flies.sunlit.clone(), flies.simulated.clone());
-    let found = plan(&task, &sunlit, &bare, &mut flies).unwrap();
+    let found = solved(&task, &sunlit, &bare, &mut flies);
     assert!(found.holds && found.greatest_n_m_s()[1] <= 2.5);
     assert!(found.difference_n_m_s() <= AGREED * 2.5, "{}", found.difference_n_m_s());
 }
@@ -118,7 +118,7 @@ fn a_plan_whose_flight_stays_below_the_limit_holds_however_far_the_model_is() {
     task.limit.momentum_n_m_s = 1.1 * unmanaged_n_m_s;
     let span_s = f64::from(DAYS) * DAY_S;
     flies.more_n_m = Vector3::new(0.045, 0.0, 0.0) * (unmanaged_n_m_s / span_s);
-    let found = plan(&task, &sunlit, &bare, &mut Fickle(flies)).unwrap();
+    let found = solved(&task, &sunlit, &bare, &mut Fickle(flies));
     assert!(found.difference_n_m_s() > AGREED * task.limit.momentum_n_m_s, "{}", found.difference_n_m_s());
     assert!(found.greatest_n_m_s()[1] < task.limit.momentum_n_m_s);
     assert!(found.holds && found.dumps.is_empty());

@@ -12,14 +12,13 @@ use rayon::prelude::*;
 use crate::{
     Failure,
     flyby::{
+        FlybyTask,
         dispersion::{Dispersions, Draw, Outcome, miss_of},
         report::Campaign,
     },
     momentum::plant::StartValues,
-    plans::{
-        flights::{Requested, SimulatedMission},
-        momentum::{flyby_task::FlybyTask, planned::Planned},
-    },
+    plans::{flights::SimulatedMission, momentum::planned::Planned},
+    simulation::Flight,
 };
 
 /// Recorded: B of the hyperbola that osculates now, closest approach, momentum.
@@ -44,27 +43,16 @@ pub(super) fn simulated(
     (flyby_task, arrival_s): (&FlybyTask, f64),
     planned: &Planned<'_>,
 ) -> Result<Campaign, Failure> {
-    let spread =
-        Dispersions { state_root: None, center_of_mass_m: table.center_of_mass_m, scale: table.scale };
-    let spread = match covariance {
-        Some(covariance) => {
-            spread.with_state(&covariance).ok_or("covariance: found none that is positive")?
-        }
-        None => spread,
-    };
+    let spread = Dispersions::new(covariance.as_ref(), table.center_of_mass_m, table.scale)
+        .ok_or("covariance: found none that is positive")?;
     let lead_s = flyby_task.force_model.lead_s;
     let times_s = rows_s([mission.start_s, mission.stop_s], arrival_s - lead_s);
     let bar = terminal::progress(table.runs, "runs", planned.options.quiet);
     let of = |run: u64| {
         let draw = spread.draw(table.seed, run);
         let sets = dispersed(&mission.values(), &draw, run);
-        let outputs = OUTPUTS.map(str::to_owned);
-        let recording = mission.record(&Requested {
-            sets: &sets,
-            outputs: &outputs,
-            at_s: Some(&times_s),
-            ..Requested::default()
-        });
+        let flight = Flight { sets: &sets, outputs: &OUTPUTS, at_s: Some(&times_s), ..Flight::default() };
+        let recording = mission.record(&flight);
         bar.inc(1);
         let found = recording.map_err(|error| error.to_string());
         (run, found.and_then(|it| outcome(&it, lead_s, flyby_task.aimpoint.b_m)))

@@ -1,17 +1,17 @@
 //! Manoeuvres that would do what the plan does: approach manoeuvres with their errors, and a departure manoeuvre for what is left.
 
-use inputs::plan::{PlanFile, keys::Compare};
+use inputs::plan::keys::Compare;
 use nalgebra::Matrix2;
 
 use crate::{
     Failure,
     flyby::{
-        Sensitivity,
+        FlybyTask, Sensitivity,
         maneuvers::{ExecutionErrors, Miss, approach, departure},
         miss::MissCost,
         report::Compared,
     },
-    plans::momentum::{flyby_task::FlybyTask, planned::Planned},
+    plans::momentum::planned::Planned,
 };
 
 /// Refuses times of manoeuvres that the flight does not have, before anything is planned.
@@ -36,11 +36,11 @@ pub(super) fn check(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<(),
 
 /// Manoeuvres compared, by the tables of a plan.
 pub(super) fn compared(
-    file: &PlanFile,
     compare: &Compare,
     (planned, flyby_task): (&Planned<'_>, &FlybyTask),
     after: &Sensitivity,
 ) -> Result<Compared, Failure> {
+    let file = &planned.file;
     let arrival_s = flyby_task.first.encounter.time_s;
     let next_s = planned.mission.time_in_file_s(file, &compare.next, compare.next.it)?;
     let departure_s = arrival_s + compare.departure_s;

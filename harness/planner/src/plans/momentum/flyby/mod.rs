@@ -4,23 +4,19 @@ mod campaign;
 mod compared;
 mod picture;
 
-use inputs::{
-    plan::{PlanFile, keys::Compare},
-    reading::At,
-};
 use physics::constants::DAY_S;
 
 pub(super) use self::picture::{desired, plane};
-use super::{flyby_task::FlybyTask, planned::Planned};
+use super::planned::Planned;
 use crate::{
     Failure,
     flyby::{
+        FlybyTask,
         controls::lead_by_windows,
-        report::{FlybyReport, encounter_of, partials_csv, sensitivity_csv},
+        report::{FlybyReport, partials_csv, sensitivity_csv},
     },
     momentum::{
-        Region,
-        attainable::{Reachable, meets_target, reachable},
+        attainable::{meets_target, reachable},
         plan::MomentumPlan,
     },
 };
@@ -43,13 +39,15 @@ pub(super) fn check(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<(),
 }
 
 /// Report as far as it is known before the plan.
-pub(super) fn before(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<FlybyReport, Failure> {
-    let mut simulates = planned;
-    let reach = reachable(&planned.task, &planned.sunlit, &planned.simulated, &mut simulates)?;
+pub(super) fn before<'a>(
+    planned: &Planned<'_>,
+    flyby_task: &'a FlybyTask,
+) -> Result<FlybyReport<'a>, Failure> {
+    let (problem, mut simulates) = (planned.problem(), planned);
+    let reach = reachable(&problem, &mut simulates)?;
     let miss = flyby_task.first_miss();
     // The reach is a lower bound: the programme of the plan decides beyond it.
-    let is_found = Region { corners: reach.polygon_m.clone() }.holds((-miss.xy()).into())
-        || meets_target(&planned.task, &planned.sunlit, &planned.simulated, &mut simulates)?;
+    let is_found = reach.region_m.holds((-miss.xy()).into()) || meets_target(&problem, &mut simulates)?;
     let from_s = planned.task.layout.frozen_until_s.max(planned.mission.start_s);
     let epoch_s = flyby_task.first.encounter.epoch_s;
     let days = (0..).map(|day| from_s + f64::from(day) * DESIRED_S).take_while(|at_s| *at_s < epoch_s);
@@ -65,52 +63,35 @@ pub(super) fn before(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<Fl
         is_out_of_reach: !is_found,
         reach,
         desired: desired.collect(),
-        ..reported(flyby_task)
+        ..FlybyReport::new(flyby_task)
     })
 }
 
-/// The encounter of the mission as it is.
-fn reported(flyby_task: &FlybyTask) -> FlybyReport {
-    let force_model = &flyby_task.force_model;
-    FlybyReport {
-        aimpoint_m: flyby_task.aimpoint.b_m,
-        epoch_minus_time_s: force_model.epoch_minus_time_s,
-        body: force_model.body.data().name,
-        radius_m: flyby_task.radius_m,
-        gm_m3_s2: force_model.gm_m3_s2,
-        lead_s: force_model.lead_s,
-        is_timed: flyby_task.aimpoint.arrival_s.is_some(),
-        miss: [None, None],
-        encounter: encounter_of(&flyby_task.first, flyby_task.radius_m),
-        is_out_of_reach: false,
-        reach: Reachable::default(),
-        desired: Vec::new(),
-        compared: None,
-        campaign: None,
-    }
-}
-
 /// The same of a plan without an aim, with what misses of it cost.
-pub(super) fn without_aim(planned: &Planned<'_>, flyby_task: &FlybyTask) -> Result<FlybyReport, Failure> {
-    let file = &planned.file;
-    let of = |at: &At<Compare>| compared::compared(file, &at.it, (planned, flyby_task), &flyby_task.first);
-    let compared = file.compare.as_ref().map(of).transpose()?;
-    Ok(FlybyReport { compared, ..reported(flyby_task) })
+pub(super) fn without_aim<'a>(
+    planned: &Planned<'_>,
+    flyby_task: &'a FlybyTask,
+) -> Result<FlybyReport<'a>, Failure> {
+    let mut report = FlybyReport::new(flyby_task);
+    if let Some(at) = &planned.file.compare {
+        report.compared = Some(compared::compared(&at.it, (planned, flyby_task), &flyby_task.first)?);
+    }
+    Ok(report)
 }
 
 /// Completes the report by the plan's flight, manoeuvres and dispersed flights; returns `sensitivity.csv` and `partials.csv`.
 pub(super) fn complete(
-    report: &mut FlybyReport,
-    file: &PlanFile,
-    (planned, flyby_task): (&Planned<'_>, &FlybyTask),
+    report: &mut FlybyReport<'_>,
+    planned: &Planned<'_>,
     found: &MomentumPlan,
 ) -> Result<[String; 2], Failure> {
+    let (file, flyby_task) = (&planned.file, report.task);
     let mut flight = found.flight.clone();
     let after = flyby_task.judge(&mut flight, &planned.sunlit)?;
     report.miss[1] = Some(flyby_task.aimpoint.miss(&after.encounter));
-    report.encounter = encounter_of(&after, flyby_task.radius_m);
+    report.encounter = after.encounter.clone();
     if let Some(at) = &file.compare {
-        report.compared = Some(compared::compared(file, &at.it, (planned, flyby_task), &after)?);
+        report.compared = Some(compared::compared(&at.it, (planned, flyby_task), &after)?);
     }
     if let Some(at) = &file.monte_carlo {
         let (mission, _folder) = planned.open_plan((&found.windows, &found.dumps), None)?;
@@ -124,22 +105,23 @@ pub(super) fn complete(
 }
 
 /// Summary of the report, in lines.
-pub(super) fn summary(report: &FlybyReport) -> Vec<String> {
+pub(super) fn summary(report: &FlybyReport<'_>) -> Vec<String> {
     let km = |length_m: f64| terminal::short(length_m / 1e3);
-    let [arrival_s, osculation_s, altitude_m, excess_m_s] = report.encounter;
-    let lead_h = terminal::short((arrival_s - osculation_s) / 3600.0);
+    let (aimpoint, encounter) = (&report.task.aimpoint, &report.encounter);
+    let days_before = |at_s: f64| terminal::short((encounter.time_s - at_s) / DAY_S);
+    let lead_h = terminal::short((encounter.time_s - encounter.epoch_s) / 3600.0);
     let missed = |label: &str, miss: &nalgebra::Vector3<f64>| {
-        let late =
-            if report.is_timed { format!(", {} s late", terminal::short(miss.z)) } else { String::new() };
+        let late = aimpoint.arrival_s.map(|_| format!(", {} s late", terminal::short(miss.z)));
+        let late = late.unwrap_or_default();
         format!("{label} misses by {} km along T, {} km along R{late}", km(miss.x), km(miss.y))
     };
     let mut lines = vec![format!(
         "{}, {lead_h} h before closest approach: aim B.T {} km, B.R {} km; closest approach {} km above it, excess speed {} km/s",
-        report.body,
-        km(report.aimpoint_m[0]),
-        km(report.aimpoint_m[1]),
-        km(altitude_m),
-        terminal::short(excess_m_s / 1e3),
+        report.task.body(),
+        km(aimpoint.b_m[0]),
+        km(aimpoint.b_m[1]),
+        km(report.altitude_m()),
+        terminal::short(encounter.plane.excess_speed_m_s / 1e3),
     )];
     let [before, after] = &report.miss;
     lines.extend(before.iter().map(|miss| missed("the mission as it is", miss)));
@@ -160,14 +142,14 @@ pub(super) fn summary(report: &FlybyReport) -> Vec<String> {
         lines.push(format!(
             "least velocity change that would do the same: {} mm/s, {} d before",
             terminal::short(1e3 * it.size_m_s()),
-            terminal::short((arrival_s - at_s) / DAY_S)
+            days_before(*at_s)
         ));
     }
     if let Some(compared) = &report.compared {
         for (at_s, it) in &compared.approach {
             lines.push(format!(
                 "approach manoeuvre {} d before: {} m/s, leaves {} km (root mean square)",
-                terminal::short((arrival_s - at_s) / DAY_S),
+                days_before(*at_s),
                 terminal::short(it.rms_m_s),
                 km(it.left.rms_m())
             ));

@@ -13,65 +13,56 @@ use crate::flyby::{
 const SIGMAS: f64 = 3.0;
 
 /// The B-plane, in km from the planet's centre; the picture has T to the right and R down, as seen along the asymptote.
-pub(crate) fn plane(report: &FlybyReport) -> PlaneChart {
+pub(crate) fn plane(report: &FlybyReport<'_>) -> PlaneChart {
     let km = |[t_m, r_m]: [f64; 2]| (t_m / 1e3, -r_m / 1e3);
-    let aimpoint = report.aimpoint_m;
+    let task = report.task;
+    let aimpoint = task.aimpoint.b_m;
     let place = |miss: &Option<nalgebra::Vector3<f64>>| {
         miss.map(|miss| km([aimpoint[0] + miss.x, aimpoint[1] + miss.y])).into_iter().collect::<Vec<_>>()
     };
-    let impact_m = b_of_periapsis_m(report.radius_m, report.gm_m3_s2, report.encounter[3]);
+    let excess_m_s = report.encounter.plane.excess_speed_m_s;
+    let impact_m = b_of_periapsis_m(task.radius_m, task.force_model.gm_m3_s2, excess_m_s);
     let before = report.miss[0].unwrap_or_default();
     let mut reach: Vec<(f64, f64)> = report
         .reach
-        .polygon_m
+        .region_m
+        .corners
         .iter()
         .map(|[t_m, r_m]| km([aimpoint[0] + before.x + t_m, aimpoint[1] + before.y + r_m]))
         .collect();
     reach.extend(reach.first().copied());
     let circle = |radius_m: f64| ellipse((0.0, 0.0), [radius_m / 1e3; 2], 0.0);
     // Both panels have the same series, because colours are assigned by index.
-    let series = || {
-        let mut series = vec![
-            Series::rings("aim", vec![km(aimpoint)]),
-            Series::dots("mission as it is", place(&report.miss[0])),
-            Series::dots("plan", place(&report.miss[1])),
-            Series::line("reach", reach.clone()),
-            Series::line("planet", circle(report.radius_m)),
-            Series::dashed("impact", circle(impact_m)),
-        ];
-        if let Some(campaign) = &report.campaign {
-            series.push(Series::dashed("three deviations", ring(campaign, aimpoint)));
-        }
-        series
-    };
+    let mut series = vec![
+        Series::rings("aim", vec![km(aimpoint)]),
+        Series::dots("mission as it is", place(&report.miss[0])),
+        Series::dots("plan", place(&report.miss[1])),
+        Series::line("reach", reach.clone()),
+        Series::line("planet", circle(task.radius_m)),
+        Series::dashed("impact", circle(impact_m)),
+    ];
+    if let Some(campaign) = &report.campaign {
+        series.push(Series::dashed("three deviations", ring(campaign, aimpoint)));
+    }
     let farthest = reach
         .iter()
         .chain(&place(&report.miss[0]))
         .fold(0.0_f64, |far, (x, y)| far.max(x.abs()).max(y.abs()));
     let near = |(x, y): (f64, f64)| (x - km(aimpoint).0).abs().max((y - km(aimpoint).1).abs());
     let close = reach.iter().copied().chain(place(&report.miss[0])).map(near).fold(1.0, f64::max);
-    let hours = terminal::short(report.lead_s / 3600.0);
-    PlaneChart {
-        title: format!("B-plane at {}, hyperbola osculating {hours} h before closest approach", report.body),
-        x_label: "B.T [km]".to_owned(),
-        y_label: "-B.R [km]".to_owned(),
-        panels: vec![
-            PlanePanel {
-                title: report.body.to_owned(),
-                series: series(),
-                half_width: 1.15 * farthest.max(impact_m / 1e3),
-                ..PlanePanel::default()
-            },
-            PlanePanel {
-                title: "about the aim".to_owned(),
-                series: series(),
-                centre: km(aimpoint),
-                half_width: 1.15 * close,
-                ..PlanePanel::default()
-            },
-        ],
-        shading: None,
-    }
+    let hours = terminal::short(task.force_model.lead_s / 3600.0);
+    let body = task.body();
+    let panel = |title: &str, centre: (f64, f64), half_width: f64| PlanePanel {
+        title: title.to_owned(),
+        series: series.clone(),
+        centre,
+        half_width: 1.15 * half_width,
+        ..PlanePanel::default()
+    };
+    let whole = panel(body, (0.0, 0.0), farthest.max(impact_m / 1e3));
+    let title = format!("B-plane at {body}, hyperbola osculating {hours} h before closest approach");
+    let labels = ["B.T [km]", "-B.R [km]"];
+    PlaneChart::new(title, labels, vec![whole, panel("about the aim", km(aimpoint), close)])
 }
 
 fn ring(campaign: &Campaign, aimpoint_m: [f64; 2]) -> Vec<(f64, f64)> {
@@ -81,9 +72,8 @@ fn ring(campaign: &Campaign, aimpoint_m: [f64; 2]) -> Vec<(f64, f64)> {
 }
 
 /// Desired velocity changes, where there are any.
-pub(crate) fn desired(report: &FlybyReport) -> Option<Chart> {
-    let arrival_s = report.encounter[0];
-    let day = |at_s: f64| (at_s - arrival_s) / DAY_S;
+pub(crate) fn desired(report: &FlybyReport<'_>) -> Option<Chart> {
+    let day = |at_s: f64| (at_s - report.encounter.time_s) / DAY_S;
     let first = report.desired.first()?;
     let of = |value: &dyn Fn(&crate::flyby::sensitivity::DesiredDeltaV) -> f64| {
         report.desired.iter().map(|(at_s, it)| (day(*at_s), value(it))).collect::<Vec<_>>()
