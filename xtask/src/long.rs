@@ -114,7 +114,8 @@ fn guide() -> Outcome {
 
 /// Tests of the physics and of the models in their long extent.
 fn models() -> Outcome {
-    let programs = "--lib --test models --test physics --test physics-units";
+    // Its unit tests are `physics-units`.
+    let programs = "--exclude physics --lib --test models --test physics --test physics-units";
     run(cargo(&format!("test {TESTS} {programs}")).env(VARIABLE, "models"))
 }
 
