@@ -93,8 +93,10 @@ impl Binary {
         let _under_way = call_record::enter(call_record::LOADING);
         // SAFETY: loading runs the library's initialisers; an FMU is code its user chose to run.
         let opened = unsafe { open(path) };
-        let library =
-            opened.map_err(|error| Error::Library { path: path.to_owned(), chain: Error::chain(&error) })?;
+        let library = opened.map_err(|error| {
+            let what = format!("the shared library does not load: {}", Error::chain(&error));
+            Error::Unusable { path: path.to_owned(), what }
+        })?;
         let library: &'static Library = Box::leak(Box::new(library));
         // SAFETY: the names are the standard's, so the types are the standard's.
         let functions = unsafe { Functions::bind(library) };
