@@ -75,6 +75,21 @@ macro_rules! bind {
 
 model_description::functions!(bind);
 
+macro_rules! number {
+    ($($name:ident $symbol:ident $parameters:tt -> $result:ty: $access:expr;)*) => {
+        /// The number of every function in the record of calls.
+        #[allow(non_upper_case_globals, dead_code, reason = "the standard's own names, as `Functions` has them")]
+        pub(super) mod numbers {
+            use crate::call_record::number;
+            use model_description::call_table::Function;
+
+            $(pub(in crate::abi) const $symbol: u64 = number(Function::$name);)*
+        }
+    };
+}
+
+model_description::functions!(number);
+
 /// A loaded shared library; it stays loaded for the life of the process.
 pub struct Binary {
     pub(super) functions: Functions,
