@@ -159,10 +159,7 @@ impl Fmu {
                 return Ok(path);
             }
         }
-        let folders = std::fs::read_dir(self.0.folder.join("binaries")).into_iter().flatten().flatten();
-        let mut found: Vec<String> =
-            folders.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
-        found.sort();
+        let found = files::names_in(&self.0.folder.join("binaries"));
         let searched = candidates.join(", ");
         let found = if found.is_empty() { "no binaries".to_owned() } else { found.join(", ") };
         let what =

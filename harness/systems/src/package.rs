@@ -97,10 +97,8 @@ impl Package {
 
     /// Returns the names of the resources, for refusals.
     fn listed(&self) -> String {
-        let entries = std::fs::read_dir(self.folder.join("resources")).into_iter().flatten().flatten();
-        let mut names: Vec<String> =
-            entries.map(|entry| format!("resources/{}", entry.file_name().to_string_lossy())).collect();
-        names.sort();
+        let names = files::names_in(&self.folder.join("resources"));
+        let names: Vec<String> = names.iter().map(|name| format!("resources/{name}")).collect();
         if names.is_empty() { String::new() } else { format!(", allowed: {}", names.join(", ")) }
     }
 }
