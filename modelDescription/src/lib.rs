@@ -45,4 +45,4 @@ pub use words::{
     Causality, DependencyKind, Initial, InterpolationKind, NamingConvention, Variability, VariableRole,
 };
 pub use write::to_xml;
-pub use writer::escape;
+pub use writer::{Writer, escape};

@@ -48,11 +48,14 @@ pub fn check_flat(name: &str) -> Result<(), String> {
     }
 }
 
+/// Splits the name of an element, `x[1,3]`, into that of its vector or matrix and the indices.
+pub fn element(name: &str) -> Option<(&str, &str)> {
+    name.strip_suffix(']')?.rsplit_once('[')
+}
+
 /// Whether a variable is an element of a matrix: `x[1,3]`.
 pub fn is_of_matrix(name: &str) -> bool {
-    name.strip_suffix(']')
-        .and_then(|name| name.rsplit_once('['))
-        .is_some_and(|(_, indices)| indices.contains(','))
+    element(name).is_some_and(|(_, indices)| indices.contains(','))
 }
 
 struct Scan<'a> {

@@ -9,17 +9,16 @@ use crate::{Annotation, Description, ScalarVariable, SimpleType, SimpleTypeKind,
 /// The same description gives the same bytes. Characters that XML 1.0 cannot carry, not even escaped (most
 /// control characters), become U+FFFD.
 pub fn to_xml(description: &Description) -> String {
-    written(description).text
+    written(description).finish()
 }
 
 /// The attributes that hold what XML cannot carry: element, name, the first such character.
-pub(crate) fn illegal_characters(description: &Description) -> Vec<(&'static str, &'static str, char)> {
+pub(crate) fn illegal_characters(description: &Description) -> Vec<(String, &'static str, char)> {
     written(description).illegal
 }
 
 fn written(description: &Description) -> Writer {
-    let mut out = Writer::default();
-    out.text.push_str("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    let mut out = Writer::new();
     out.element("fmiModelDescription", |out| {
         out.attribute("fmiVersion", &"2.0".to_owned());
         description.write(out);

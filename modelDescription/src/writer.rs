@@ -1,5 +1,7 @@
 //! Elements and attributes as XML text: UTF-8, two spaces a level.
 
+use std::{borrow::Cow, fmt::Display};
+
 use crate::lexical::Lexical;
 
 /// `text` as the content of a double-quoted attribute; tab and line breaks survive attribute normalisation.
@@ -32,52 +34,83 @@ fn push_escaped(out: &mut String, text: &str) {
 
 /// The document so far.
 #[derive(Default)]
-pub(crate) struct Writer {
-    pub(crate) text: String,
-    open: Vec<&'static str>,
+pub struct Writer {
+    text: String,
+    open: Vec<Cow<'static, str>>,
     in_tag: bool,
-    pub(crate) illegal: Vec<(&'static str, &'static str, char)>,
+    is_inline: bool,
+    pub(crate) illegal: Vec<(String, &'static str, char)>,
 }
 
 impl Writer {
-    fn indent(&mut self) {
-        for _ in 0..self.open.len() {
-            self.text.push_str("  ");
+    /// A document with its XML declaration.
+    pub fn new() -> Self {
+        Self { text: "<?xml version=\"1.0\" encoding=\"UTF-8\"?>".to_owned(), ..Self::default() }
+    }
+
+    /// The text.
+    pub fn finish(mut self) -> String {
+        self.text.push('\n');
+        self.text
+    }
+
+    /// Begins a line, unless the open element stays on its own.
+    fn begin_line(&mut self) {
+        if !self.is_inline {
+            self.text.push('\n');
+            self.open.iter().for_each(|_| self.text.push_str("  "));
         }
     }
 
-    pub(crate) fn element(&mut self, name: &'static str, content: impl FnOnce(&mut Self)) {
+    /// An element; `content` writes its attributes, then the elements in it.
+    pub fn element(&mut self, name: impl Into<Cow<'static, str>>, content: impl FnOnce(&mut Self)) {
+        let name = name.into();
         if self.in_tag {
-            self.text.push_str(">\n");
+            self.text.push('>');
         }
-        self.indent();
+        self.begin_line();
         self.text.push('<');
-        self.text.push_str(name);
+        self.text.push_str(&name);
         self.open.push(name);
         self.in_tag = true;
         content(self);
-        self.open.pop();
+        let name = self.open.pop().unwrap_or_default();
         if self.in_tag {
-            self.text.push_str("/>\n");
+            self.text.push_str("/>");
         } else {
-            self.indent();
+            self.begin_line();
             self.text.push_str("</");
-            self.text.push_str(name);
-            self.text.push_str(">\n");
+            self.text.push_str(&name);
+            self.text.push('>');
         }
         self.in_tag = false;
+    }
+
+    /// An element that stands in one line with the elements in it.
+    pub fn inline(&mut self, name: impl Into<Cow<'static, str>>, content: impl FnOnce(&mut Self)) {
+        self.element(name, |out| {
+            out.is_inline = true;
+            content(out);
+        });
+        self.is_inline = false;
     }
 
     /// An attribute of the element last opened, before its content.
     pub(crate) fn attribute(&mut self, name: &'static str, value: &impl Lexical) {
         let text = value.text();
         if let Some(c) = text.chars().find(|c| !is_xml_char(*c)) {
-            self.illegal.push((self.open.last().copied().unwrap_or_default(), name, c));
+            let element = self.open.last().cloned().unwrap_or_default();
+            self.illegal.push((element.into_owned(), name, c));
         }
+        self.shown(name, text);
+    }
+
+    /// An attribute with a value as it is shown.
+    pub fn shown(&mut self, name: &'static str, value: impl Display) {
         self.text.push(' ');
         self.text.push_str(name);
         self.text.push_str("=\"");
-        push_escaped(&mut self.text, &text);
+        push_escaped(&mut self.text, &value.to_string());
         self.text.push('"');
     }
 
@@ -86,7 +119,8 @@ impl Writer {
         value.iter().for_each(|value| self.attribute(name, value));
     }
 
-    pub(crate) fn list<T>(&mut self, name: &'static str, items: &[T], mut item: impl FnMut(&mut Self, &T)) {
+    /// A list in an element of its own; nothing of an empty one.
+    pub fn list<T>(&mut self, name: &'static str, items: &[T], mut item: impl FnMut(&mut Self, &T)) {
         if !items.is_empty() {
             self.element(name, |out| items.iter().for_each(|value| item(out, value)));
         }

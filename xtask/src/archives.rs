@@ -10,7 +10,7 @@ use zip::{DateTime, ZipWriter, write::SimpleFileOptions};
 use crate::build::{Built, scratch};
 use crate::platforms::{ALL, Platform, WINDOWS};
 use crate::shell::{Outcome, command, output, root, run};
-use crate::{notices, prefix, python};
+use crate::{notices, paths, prefix, python};
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -26,9 +26,9 @@ pub(crate) fn write(built: &Built) -> Outcome {
         prefix::below(&base, it, Some(&built.heliotorque))?;
         add_licenses(&base, platform)?;
         let is_zip = platform.folder == WINDOWS.folder;
-        let path = root().join("dist").join(format!("{name}.{}", if is_zip { "zip" } else { "tar.gz" }));
+        let path = paths::dist(format!("{name}.{}", if is_zip { "zip" } else { "tar.gz" }));
         let written = if is_zip { zip(&folder, &name, &path) } else { tar(&folder, &name, &path) };
-        written.map_err(|error| format!("{}: {error}", path.display()))?;
+        paths::at(&path, written)?;
         println!("{}", path.display());
     }
     Ok(())
@@ -123,22 +123,19 @@ pub(crate) fn installed(platform: &Platform) -> Result<PathBuf, String> {
 
 /// The wheel of a platform.
 fn wheel(platform: &Platform) -> PathBuf {
-    root().join("dist").join(format!("heliotorque-{VERSION}-py3-none-{}.whl", platform.wheel_tag))
+    paths::dist(format!("heliotorque-{VERSION}-py3-none-{}.whl", platform.wheel_tag))
 }
 
 fn add_licenses(folder: &Path, platform: &Platform) -> Outcome {
     LICENSES.iter().try_for_each(|name| prefix::copy(&root().join(name), folder).map(|_| ()))?;
     let file = folder.join("THIRD-PARTY-PROGRAM.txt");
-    let text = notices::of_program(platform.target)?;
-    fs::write(&file, text).map_err(|error| format!("{}: {error}", file.display()))
+    paths::write(&file, notices::of_program(platform.target)?)
 }
 
 /// An empty scratch folder.
 fn emptied(name: &str) -> Result<PathBuf, String> {
     let folder = scratch(name)?;
-    let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
-    fs::remove_dir_all(&folder).map_err(failed)?;
-    fs::create_dir_all(&folder).map_err(failed)?;
+    paths::at(&folder, fs::remove_dir_all(&folder).and_then(|()| fs::create_dir_all(&folder)))?;
     Ok(folder)
 }
 

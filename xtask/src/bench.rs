@@ -7,7 +7,7 @@ use std::time::Instant;
 use crate::build::{self, Built};
 use crate::shell::{Outcome, cargo, command, need, output, root, run};
 use crate::test::compile_c;
-use crate::{dist, python, studies};
+use crate::{paths, python, studies};
 
 /// Kernel benchmarks: examples of `physics`, built as the library is.
 const EXAMPLES: &[&str] = &["bench_solar", "bench_radiation"];
@@ -36,7 +36,7 @@ pub(crate) fn parts(names: &[String]) -> Outcome {
     if let Some(name) = names.iter().find(|name| PARTS.iter().all(|(known, _)| known != name)) {
         return Err(format!("unknown part `{name}` of bench; there are {}", known()));
     }
-    let built = dist::dist()?;
+    let built = crate::dist::dist()?;
     if let Ok(library) = std::fs::metadata(&built.library) {
         println!("bench library_size {:.3} MB", library.len() as f64 / 1e6);
     }
@@ -72,7 +72,7 @@ fn earth(built: &Built) -> Outcome {
     run(command(python::basilisk()?)
         .arg(script)
         .arg(&built.heliotorque)
-        .arg(root().join("dist").join("MomentumPlant.fmu")))
+        .arg(paths::dist("MomentumPlant.fmu")))
 }
 
 /// Flights of ten days in one step each: `sweep` compared with a C program with the same values, with one and two workers and its memory; then
@@ -81,8 +81,7 @@ fn sweep(built: &Built) -> Outcome {
     const FLIGHTS: u32 = 1000;
     let folder = Folder::new(built, "bench-sweep")?;
     let campaign = root().join("examples").join("campaign.toml");
-    let text = std::fs::read_to_string(&campaign)
-        .map_err(|error| format!("{}: {error}", campaign.display()))?
+    let text = paths::read(&campaign)?
         .replace("../dist", &root().join("dist").display().to_string())
         .replace("runs = 10000", &format!("runs = {FLIGHTS}"));
     folder.write("campaign.toml", &text)?;
@@ -118,7 +117,7 @@ fn sweep(built: &Built) -> Outcome {
     run(command(python::interpreter()?)
         .arg(script)
         .arg(&built.heliotorque)
-        .arg(root().join("dist").join("MomentumPlant.fmu")))
+        .arg(paths::dist("MomentumPlant.fmu")))
 }
 
 /// Processor time of all processes that this one has waited for, and theirs, in s; 0 where the system does not report it.
@@ -241,8 +240,7 @@ fn n_body_by_c(folder: &Folder<'_>) -> Outcome {
 
 /// A file of the resources.
 fn resource(name: &str) -> Result<String, String> {
-    let path = root().join("fmu-src").join("resources").join(name);
-    std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))
+    paths::read(&paths::resource(name))
 }
 
 /// An empty folder with the spacecraft, in which the program runs.
@@ -259,14 +257,13 @@ impl<'b> Folder<'b> {
     }
 
     fn write(&self, name: &str, text: &str) -> Outcome {
-        let path = self.path.join(name);
-        std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
+        paths::write(&self.path.join(name), text)
     }
 
     fn command(&self, words: &str) -> Command {
         let mut command = command(&self.built.heliotorque);
         command.current_dir(&self.path).args(words.split_whitespace());
-        command.arg("--template").arg(root().join("dist").join("MomentumPlant.fmu"));
+        command.arg("--template").arg(paths::dist("MomentumPlant.fmu"));
         command
     }
 
@@ -322,7 +319,7 @@ fn system(built: &Built) -> Outcome {
     let seconds = median_s(
         command(&built.heliotorque)
             .arg("run")
-            .arg(root().join("dist").join("MessengerLoop.ssp"))
+            .arg(paths::dist("MessengerLoop.ssp"))
             .args(["--quiet", "--step", "20ms", "--every", "600", "--record", "plant.momentum.body"])
             .args(["--stop", &SPAN_S.to_string(), "--output", "-"]),
     )?;
@@ -333,18 +330,16 @@ fn system(built: &Built) -> Outcome {
 
 /// Folders as an FMU's `resources/`, with two spacecraft whose surfaces give off heat.
 fn spacecraft_folders(scratch: &Path) -> Result<[PathBuf; 2], String> {
-    let resources = root().join("fmu-src").join("resources");
-    let folder = |name: &str, file: PathBuf| {
-        let folder = scratch.join(name);
+    let folder = |name: &str, file: &str| {
+        let (folder, file) = (scratch.join(name), paths::resource(file));
         let copy = || {
             std::fs::create_dir_all(&folder)?;
             std::fs::copy(&file, folder.join("spacecraft.toml"))
         };
-        copy().map_err(|error| format!("{}: {error}", file.display()))?;
+        paths::at(&file, copy())?;
         Ok::<_, String>(folder)
     };
-    let orbiter = folder("orbiter", resources.join("examples").join("mercury-orbiter.toml"))?;
-    Ok([orbiter, folder("messenger", resources.join("messenger-thermal.toml"))?])
+    Ok([folder("orbiter", "examples/mercury-orbiter.toml")?, folder("messenger", "messenger-thermal.toml")?])
 }
 
 /// Paper 000's Table 2 with the FMU's own dumps: every shade, convention, threshold and offset, on all cores.

@@ -5,7 +5,8 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::shell::{self, cargo, root, run, target};
+use crate::paths;
+use crate::shell::{cargo, root, run, target};
 
 /// Products of a build.
 pub(crate) struct Built {
@@ -105,8 +106,5 @@ pub(crate) fn test_environment(built: &Built) -> [(&'static str, PathBuf); 4] {
 
 /// Returns an existing folder for files of tests.
 pub(crate) fn scratch(name: &str) -> Result<PathBuf, String> {
-    let folder = shell::target().join("scratch").join(name);
-    std::fs::create_dir_all(&folder)
-        .map_err(|error| format!("cannot create {}: {error}", folder.display()))?;
-    Ok(folder)
+    paths::created(target().join("scratch").join(name))
 }

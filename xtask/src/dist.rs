@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::build::{Built, build, scratch};
-use crate::shell::{Outcome, command, root, run, target};
-use crate::{archives, platforms, systems};
+use crate::shell::{Outcome, command, run, target};
+use crate::{archives, paths, platforms, systems};
 
 /// An FMU: file name, model, spacecraft, further options of `pack`.
 type Shipped = (&'static str, &'static str, &'static str, &'static str);
@@ -50,8 +50,7 @@ pub(crate) fn pack_all(built: &Built) -> Outcome {
         systems.join().unwrap_or_else(|_| Err("the thread of the systems panicked".to_owned()))
     })?;
     // Only here is everything packed, and `current` looks at it.
-    let stamp = stamp();
-    fs::write(&stamp, "").map_err(|error| format!("{}: {error}", stamp.display()))
+    paths::write(&stamp(), "")
 }
 
 /// Builds what is shipped, for old systems where that is possible, and packs it.
@@ -89,10 +88,10 @@ fn pack(built: &Built) -> Outcome {
             .args(["pack", "--name", name, "--model", model])
             .args(built.library_options(|it| &it.library))
             .arg("--spacecraft")
-            .arg(root().join("fmu-src").join("resources").join(spacecraft))
+            .arg(paths::resource(spacecraft))
             .args(systems::options(options))
             .arg("--output")
-            .arg(root().join("dist").join(format!("{name}.fmu")))
+            .arg(paths::dist(format!("{name}.fmu")))
             // The standard output may be a shell's, as that of `env` is.
             .stdout(std::io::stderr()))
     })

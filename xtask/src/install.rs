@@ -7,7 +7,7 @@ use std::{
 
 use crate::prefix::{PROGRAM_FOLDER, below};
 use crate::shell::Outcome;
-use crate::{build, dist};
+use crate::{build, dist, paths};
 
 /// Leaves out building and packing.
 const BUILT: &str = "--built";
@@ -52,5 +52,5 @@ fn prefix(options: &[String]) -> Result<PathBuf, String> {
             Path::new(&home).join(".local")
         }
     };
-    std::path::absolute(&folder).map_err(|error| format!("{}: {error}", folder.display()))
+    paths::at(&folder, std::path::absolute(&folder))
 }

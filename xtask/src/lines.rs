@@ -1,8 +1,8 @@
 //! `cargo xtask lines`: lines of code by crate, without blanks, comments, lone brackets and tests.
 
-use std::fs;
 use std::path::Path;
 
+use crate::paths::{entries, name_of, read};
 use crate::shell::{Outcome, root};
 
 /// The crate that is counted by folders too.
@@ -13,8 +13,7 @@ const CORE: [&str; 2] = ["fmu-src/", "modelDescription"];
 /// Prints the lines of every crate but those of tests, and those of [`PHYSICS`] by folder.
 pub(crate) fn print() -> Outcome {
     let root = root();
-    let manifest = root.join("Cargo.toml");
-    let text = fs::read_to_string(&manifest).map_err(|error| format!("{}: {error}", manifest.display()))?;
+    let text = read(&root.join("Cargo.toml"))?;
     let (mut core, mut all) = (0, 0);
     let row = |lines: usize, name: &str| println!("{lines:7} {name}");
     for member in members(&text).filter(|member| !is_of_tests(member)) {
@@ -50,10 +49,8 @@ fn is_of_tests(folder: &str) -> bool {
 /// The lines below every folder in `folder`, by name.
 fn folders(folder: &Path) -> Result<Vec<(String, usize)>, String> {
     let mut found = Vec::new();
-    for (name, path) in entries(folder)? {
-        if path.is_dir() {
-            found.push((name, below(&path)?));
-        }
+    for path in entries(folder)?.iter().filter(|path| path.is_dir()) {
+        found.push((name_of(path), below(path)?));
     }
     Ok(found)
 }
@@ -61,27 +58,15 @@ fn folders(folder: &Path) -> Result<Vec<(String, usize)>, String> {
 /// The lines of all files below `folder` that are not for tests.
 fn below(folder: &Path) -> Result<usize, String> {
     let mut lines = 0;
-    for (name, path) in entries(folder)? {
+    for path in entries(folder)? {
+        let name = name_of(&path);
         if path.is_dir() {
             lines += if is_of_tests(&name) || name == "target" { 0 } else { below(&path)? };
         } else if name.ends_with(".rs") && !is_test_file(&name) {
-            let text = fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
-            lines += counted(&text);
+            lines += counted(&read(&path)?);
         }
     }
     Ok(lines)
-}
-
-/// The names and paths in a folder, in the order of their names.
-fn entries(folder: &Path) -> Result<Vec<(String, std::path::PathBuf)>, String> {
-    let problem = |error: std::io::Error| format!("{}: {error}", folder.display());
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder).map_err(problem)? {
-        let entry = entry.map_err(problem)?;
-        found.push((entry.file_name().to_string_lossy().into_owned(), entry.path()));
-    }
-    found.sort();
-    Ok(found)
 }
 
 fn is_test_file(name: &str) -> bool {

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::paths::created;
 use crate::shell::{command, lacks, need, run, target};
 
 /// Its name, as `setlocale` takes it.
@@ -26,9 +27,8 @@ pub(crate) fn environment() -> Result<Option<(&'static str, PathBuf)>, String> {
         if !Path::new(SOURCE).exists() {
             return lacks(SOURCE, what_for).map(|()| None);
         }
-        std::fs::create_dir_all(&folder)
-            .map_err(|error| format!("cannot create {}: {error}", folder.display()))?;
-        run(command("localedef").args(["-i", "de_DE", "-f", "UTF-8"]).arg(folder.join(NAME)))?;
+        let locale = created(folder.clone())?.join(NAME);
+        run(command("localedef").args(["-i", "de_DE", "-f", "UTF-8"]).arg(locale))?;
     }
     Ok(Some((VARIABLE, folder)))
 }

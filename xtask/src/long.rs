@@ -8,7 +8,7 @@ use std::process::Command;
 use crate::build::{self, Built, TESTS};
 use crate::shell::{Outcome, available, cargo, command, root, run, target};
 use crate::test::{self, CCompiler, compile_c_for};
-use crate::{dist, guide, shell};
+use crate::{dist, guide, paths, shell};
 
 /// Fuzz targets, in `tests/fuzz/targets`.
 const TARGETS: &[&str] = &["spacecraft", "model_description", "state", "calls", "zip"];
@@ -52,7 +52,7 @@ fn shipped() -> Outcome {
         for fmu in dist::names() {
             run(command(&build::built().heliotorque)
                 .arg("run")
-                .arg(root().join("dist").join(format!("{fmu}.fmu")))
+                .arg(paths::dist(format!("{fmu}.fmu")))
                 .args(["--quiet", "--output"])
                 .arg(folder.join(format!("{fmu}.csv"))))?;
         }
@@ -184,8 +184,7 @@ fn sanitizers() -> Outcome {
     for sanitizer in ["address,undefined", "thread"] {
         let flag = format!("-fsanitize={sanitizer}");
         let empty = scratch.join("empty.c");
-        fs::write(&empty, "int main(void) { return 0; }\n")
-            .map_err(|error| format!("{}: {error}", empty.display()))?;
+        paths::write(&empty, "int main(void) { return 0; }\n")?;
         if !answers(command("gcc").arg(&flag).arg(&empty).arg("-o").arg(scratch.join("empty"))) {
             skipped(&format!("the C client under {flag}"), "library of this sanitizer")?;
             continue;
@@ -245,9 +244,9 @@ fn writes() -> Outcome {
         .arg("-o")
         .arg(&full_disk)
         .arg("-ldl"))?;
-    let plant = root().join("dist").join("MomentumPlant.fmu");
+    let plant = paths::dist("MomentumPlant.fmu");
     let plant = plant.to_string_lossy();
-    let spacecraft = root().join("fmu-src").join("resources").join("messenger.toml");
+    let spacecraft = paths::resource("messenger.toml");
     let commands: [(&[&str], &str, &str); 3] = [
         (&["run", &plant, "--stop", "2d", "--quiet"], "--output", "rows.csv"),
         (&["run", &plant, "--stop", "2d", "--quiet"], "--output", "rows.svg"),

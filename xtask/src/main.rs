@@ -11,6 +11,7 @@ mod locale;
 mod long;
 mod notices;
 mod paired;
+mod paths;
 mod platform_tests;
 mod platforms;
 mod prefix;
@@ -130,7 +131,7 @@ fn timed(task: fn() -> Outcome) -> Outcome {
 
 fn demo() -> Outcome {
     let built = dist::dist()?;
-    let folder = shell::root().join("dist").join("demo");
+    let folder = paths::dist("demo");
     let only = ["--table", "2", "--only", "4 N.m.s"];
     shell::run(studies::program(&built, "momentum/tables", &folder)?.args(only))
 }

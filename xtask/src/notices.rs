@@ -15,6 +15,7 @@ use std::{
 
 use serde_json::Value;
 
+use crate::paths;
 use crate::shell::{self, Outcome, cargo};
 
 /// The same crates wherever the notices of the library are made.
@@ -161,17 +162,17 @@ fn folder(metadata: &Value, it: &Crate) -> Option<PathBuf> {
 
 /// The texts that a crate's licence requires to be passed on, as far as they are files of the crate.
 fn notices(folder: &Path, license: &str) -> Result<Vec<String>, String> {
-    let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
     let mut names = Vec::new();
-    for name in names_in(folder).map_err(failed)? {
+    for path in paths::entries(folder)? {
+        let name = paths::name_of(&path);
         let upper = name.to_uppercase();
         if !["LICENSE", "LICENCE", "COPYING", "NOTICE"].iter().any(|start| upper.starts_with(start)) {
             continue;
         }
-        match folder.join(&name).is_dir() {
+        match path.is_dir() {
             true => {
-                let within = names_in(&folder.join(&name)).map_err(failed)?;
-                names.extend(within.iter().map(|file| format!("{name}/{file}")));
+                let within = paths::entries(&path)?;
+                names.extend(within.iter().map(|file| format!("{name}/{}", paths::name_of(file))));
             }
             false => names.push(name),
         }
@@ -182,15 +183,7 @@ fn notices(folder: &Path, license: &str) -> Result<Vec<String>, String> {
     if choice && !license.contains(" AND ") && names.iter().any(mit) {
         names.retain(|name| mit(name) || name.to_uppercase().starts_with("NOTICE"));
     }
-    names
-        .iter()
-        .map(|name| fs::read_to_string(folder.join(name)).map(|text| tidy(&text)).map_err(failed))
-        .collect()
-}
-
-/// Names of what a folder holds.
-fn names_in(folder: &Path) -> std::io::Result<Vec<String>> {
-    fs::read_dir(folder)?.map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned())).collect()
+    names.iter().map(|name| paths::read(&folder.join(name)).map(|text| tidy(&text))).collect()
 }
 
 /// Lines end alike and without blanks, whatever the crate's authors use.

@@ -9,11 +9,11 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::build::{Built, scratch};
-use crate::dist;
 use crate::platforms::{ALL, ARM, Platform, WINDOWS};
-use crate::shell::{Outcome, command, output, root, run};
+use crate::shell::{Outcome, command, output, run};
 use crate::test::{CCompiler, compile_c_for};
 use crate::{archives, tools, windows};
+use crate::{dist, paths};
 use simulations::{SAVED, Simulation, Value};
 
 /// Folder of the C library for Arm.
@@ -131,12 +131,12 @@ impl Prepared {
 
 /// Folder with an FMU of `dist/`, unpacked again where that has changed.
 fn unpacked(fmu: &str) -> Result<PathBuf, String> {
-    let archive = root().join("dist").join(format!("{fmu}.fmu"));
+    let archive = paths::dist(format!("{fmu}.fmu"));
     let folder = scratch("unpacked")?.join(fmu);
     let changed = |path: &Path| fs::metadata(path).and_then(|file| file.modified()).ok();
     if changed(&folder) < changed(&archive) {
         if folder.exists() {
-            fs::remove_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+            paths::at(&folder, fs::remove_dir_all(&folder))?;
         }
         run(command("python3").args(["-m", "zipfile", "-e"]).arg(&archive).arg(&folder))?;
     }
@@ -241,7 +241,7 @@ fn differences(expected: &[&str], found: &str) -> Vec<String> {
 
 /// The program of each platform simulates and checks an FMU; its recording equals the host's byte for byte.
 fn programs(machines: &[Machine], built: &Built) -> Outcome {
-    let fmu = root().join("dist").join(format!("{SIMULATED}.fmu"));
+    let fmu = paths::dist(format!("{SIMULATED}.fmu"));
     let folder = scratch("platforms")?;
     let mut first: Option<Vec<u8>> = None;
     for (machine, it) in machines.iter().zip(built.each()) {
@@ -253,7 +253,7 @@ fn programs(machines: &[Machine], built: &Built) -> Outcome {
             .arg(machine.path(&fmu))
             .args(options)
             .arg(machine.path(&recording)))?;
-        let bytes = fs::read(&recording).map_err(|error| format!("{}: {error}", recording.display()))?;
+        let bytes = paths::at(&recording, fs::read(&recording))?;
         if bytes != *first.get_or_insert_with(|| bytes.clone()) {
             return Err(format!("{}: differs from the recording of the host's program", recording.display()));
         }

@@ -7,6 +7,7 @@ use std::{
 };
 
 use crate::build::{self, Built};
+use crate::paths::entries;
 use crate::shell::{self, root, run};
 
 /// Folder of the program below the prefix.
@@ -49,16 +50,8 @@ fn pages(program: &Path) -> Result<Vec<PathBuf>, String> {
 
 /// The files of a folder with this extension, by name.
 fn files_in(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, String> {
-    let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
-    let mut paths = Vec::new();
-    for entry in fs::read_dir(folder).map_err(failed)? {
-        let path = entry.map_err(failed)?.path();
-        if path.is_file() && path.extension() == Some(OsStr::new(extension)) {
-            paths.push(path);
-        }
-    }
-    paths.sort();
-    Ok(paths)
+    let is_meant = |path: &PathBuf| path.is_file() && path.extension() == Some(OsStr::new(extension));
+    Ok(entries(folder)?.into_iter().filter(is_meant).collect())
 }
 
 /// Copies a file into a folder under its own name: whole or not at all, also over a program that runs.

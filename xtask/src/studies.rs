@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::build::Built;
+use crate::paths::{dist, entries, read};
 use crate::shell::{Outcome, command, root, run};
-use crate::{build, dist, python};
+use crate::{build, python};
 
 /// A study: `<subject>/<name>`, and what the first line of its docstring says.
 struct Study {
@@ -30,10 +31,10 @@ pub(crate) fn study(arguments: &[String]) -> Outcome {
         return Err(format!("no study `{name}`; there are all, {}", names.join(", ")));
     }
     let built = build::build()?;
-    dist::pack_stale(&built)?;
+    crate::dist::pack_stale(&built)?;
     let chosen = studies.iter().filter(|study| name == "all" || study.name == name);
     chosen.into_iter().try_for_each(|study| {
-        let output = root().join("dist").join(&study.name);
+        let output = dist(&study.name);
         run(program(&built, &study.name, &output)?.args(options))
     })
 }
@@ -54,10 +55,9 @@ fn folder() -> PathBuf {
 /// All studies by name: the files in folders of `harness/studies` that end with a call of `main`.
 fn all() -> Result<Vec<Study>, String> {
     let mut studies = Vec::new();
-    for subject in listed(&folder())?.iter().filter(|path| path.is_dir()) {
-        for file in listed(subject)?.iter().filter(|path| path.extension().is_some_and(|it| it == "py")) {
-            let text =
-                std::fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?;
+    for subject in entries(&folder())?.iter().filter(|path| path.is_dir()) {
+        for file in entries(subject)?.iter().filter(|path| path.extension().is_some_and(|it| it == "py")) {
+            let text = read(file)?;
             if text.lines().next_back().is_some_and(|last| last.contains("main(")) {
                 let first = text.lines().next().unwrap_or_default();
                 studies.push(Study {
@@ -72,12 +72,4 @@ fn all() -> Result<Vec<Study>, String> {
 
 fn stem(path: &Path) -> String {
     path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
-}
-
-/// The entries of a folder by name.
-fn listed(folder: &Path) -> Result<Vec<PathBuf>, String> {
-    let entries = std::fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
-    paths.sort();
-    Ok(paths)
 }

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::build::Built;
-use crate::shell::{Beside, Outcome, command, root, run};
+use crate::paths::{dist, resource};
+use crate::shell::{Beside, Outcome, command, run};
 
 /// The attitude that the orbit phase's guidance commands at the start of `MessengerLoop.ssp`: from any other the first slew would
 /// lead the Sun out of its zone.
@@ -102,7 +103,7 @@ pub(crate) fn pack(built: &Built, scratch: &Path) -> Outcome {
                 .args(["--stop", system.stop, "--step", system.step, "--outputs", system.outputs, "--quiet"])
                 .args(options)
                 .arg("--output")
-                .arg(root().join("dist").join(file)))?;
+                .arg(dist(file)))?;
             // A simulation waits for one core, as packing does.
             records.push(Beside::start(&mut record(built, file))?);
         }
@@ -115,7 +116,7 @@ const EVERY: &str = "600";
 
 /// The default experiment of the system, with outputs at the start exchanged in initialization.
 fn record(built: &Built, file: &str) -> Command {
-    let system = root().join("dist").join(file);
+    let system = dist(file);
     let mut simulation = command(&built.heliotorque);
     simulation.arg("run").arg(&system).args(["--quiet", "--first-exchange", "initial", "--every", EVERY]);
     simulation.arg("--output").arg(system.with_extension("csv"));
@@ -130,7 +131,7 @@ fn pack_component(built: &Built, component: &Component, scratch: &Path) -> Resul
     let mut pack = command(&built.heliotorque);
     pack.args(["pack", "--model", model]).args(built.library_options(library));
     if let Some(spacecraft) = spacecraft {
-        pack.arg("--spacecraft").arg(root().join("fmu-src").join("resources").join(spacecraft));
+        pack.arg("--spacecraft").arg(resource(spacecraft));
     }
     run(pack.args(options(further)).arg("--output").arg(&fmu).stdout(std::io::stderr()))?;
     Ok(fmu)

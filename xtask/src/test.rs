@@ -6,7 +6,7 @@ use std::thread::ScopedJoinHandle;
 
 use crate::build::{self, Built, TESTS};
 use crate::shell::{Echo, Outcome, cargo, command, need, root, run, run_tests};
-use crate::{dist, guide, locale, python};
+use crate::{dist, guide, locale, paths, python};
 
 /// Seed of the property tests: the same draws in every run, so that what turns red was changed; set it for others.
 const DRAWS: &str = "PROPTEST_RNG_SEED";
@@ -102,7 +102,7 @@ fn foreign_fmu() -> Result<PathBuf, String> {
     let fmu = build::scratch("foreign")?.join("container.fmu");
     run(command(python::interpreter()?)
         .args(["tests/python/foreign_fmu.py"])
-        .arg(root().join("dist").join("MomentumPlant.fmu"))
+        .arg(paths::dist("MomentumPlant.fmu"))
         .arg(&fmu))?;
     Ok(fmu)
 }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use crate::build::Built;
 use crate::platforms::{WINDOWS, mingw};
 use crate::shell::{Outcome, run, target};
-use crate::test;
+use crate::{paths, test};
 
 /// Crates whose unit tests ask the operating system for something.
 const OF_THE_SYSTEM: &str = "-p files -p fmi";
@@ -21,13 +21,11 @@ pub(crate) fn test(built: &Built) -> Outcome {
 
 /// Program and libraries in one folder.
 fn shipped() -> Result<PathBuf, String> {
-    let folder = target().join("windows");
+    let folder = paths::created(target().join("windows"))?;
     let Built { heliotorque, library, probe, .. } = WINDOWS.built();
-    std::fs::create_dir_all(&folder)
-        .map_err(|error| format!("cannot create {}: {error}", folder.display()))?;
     for from in [heliotorque, library, probe] {
         let to = folder.join(from.file_name().unwrap_or_default());
-        std::fs::copy(&from, to).map_err(|error| format!("{}: {error}", from.display()))?;
+        paths::at(&from, std::fs::copy(&from, to))?;
     }
     Ok(folder)
 }

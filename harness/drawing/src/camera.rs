@@ -118,12 +118,16 @@ impl Camera {
     }
 
     fn around(&self, surface: &Surface) -> [Flat; 2] {
-        let flat = surface.corners.iter().map(|corner| self.flat(*corner));
-        flat.fold(
-            [(f64::INFINITY, f64::INFINITY), (f64::NEG_INFINITY, f64::NEG_INFINITY)],
-            |[low, high], (x, y)| [(low.0.min(x), low.1.min(y)), (high.0.max(x), high.1.max(y))],
-        )
+        bounds(surface.corners.iter().map(|corner| self.flat(*corner)))
     }
+}
+
+/// Lower left and upper right corner of the rectangle around some points.
+pub(crate) fn bounds(points: impl Iterator<Item = Flat>) -> [Flat; 2] {
+    points.fold(
+        [(f64::INFINITY, f64::INFINITY), (f64::NEG_INFINITY, f64::NEG_INFINITY)],
+        |[low, high], (x, y)| [(low.0.min(x), low.1.min(y)), (high.0.max(x), high.1.max(y))],
+    )
 }
 
 /// Height of a point above the front of a surface's plane.

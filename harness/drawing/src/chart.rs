@@ -230,9 +230,9 @@ pub(super) fn draw_series(
                 }
             }
             let dashes = if mark == Mark::Dashed { " stroke-dasharray=\"6 5\"" } else { "" };
-            pen.lines(edges.iter().map(Vec::as_slice), &stroke(1));
+            pen.lines(edges, &stroke(1));
             let round = format!("{} stroke-linejoin=\"round\"{dashes}", stroke(2));
-            pen.lines(lines.iter().map(Vec::as_slice), &round);
+            pen.lines(lines, &round);
         }),
     }
 }

@@ -94,15 +94,14 @@ impl Frame {
     /// A line of places.
     pub fn line(&self, pen: &mut Pen, places: &[[f64; 2]], attributes: &str) {
         let line = thinned(places.iter().map(|place| self.at(*place)));
-        pen.lines([line.as_slice()], attributes);
+        pen.lines([line], attributes);
     }
 
     /// Thin lines at the ticks of both axes.
     pub fn grid(&self, pen: &mut Pen, axes: &Axes<'_>) {
         let across = axes.ticks(1, self.y).into_iter().map(|(y, _)| self.x.map(|x| self.at([x, y])));
         let along = axes.ticks(0, self.x).into_iter().map(|(x, _)| self.y.map(|y| self.at([x, y])));
-        let lines: Vec<[Pixel; 2]> = across.chain(along).collect();
-        pen.lines(lines.iter().map(|line| &line[..]), GRID);
+        pen.lines(across.chain(along), GRID);
     }
 
     /// Border, ticks, numbers, labels.
@@ -132,7 +131,7 @@ impl Frame {
             let size = TICK_SIZE * (room / width_px(&text, TICK_SIZE)).min(1.0);
             pen.text((x - BESIDE_TICK, y + 4.0), size, "end", BESIDE, &text);
         }
-        pen.lines(marks.iter().map(|mark| &mark[..]), BORDER);
+        pen.lines(marks, BORDER);
         if !x_label.is_empty() {
             pen.text((self.left + 0.5 * self.width, high.1 + 34.0), 12.0, "middle", TEXT, x_label);
         }

@@ -114,14 +114,14 @@ fn width(label: &str) -> f64 {
 
 impl Swatch {
     fn draw(self, pen: &mut Pen, x: f64, y: f64) {
-        let line = |pen: &mut Pen, stroke: &str| pen.lines([&[(x, y), (x + SWATCH, y)][..]], stroke);
+        let line = |pen: &mut Pen, stroke: &str| pen.lines([[(x, y), (x + SWATCH, y)]], stroke);
         match self {
             Self::Shades => pen.rect((x, y - 6.0), (x + SWATCH, y + 6.0), SHADE),
             Self::Band => {
                 let corners = [(x, y - 6.0), (x + SWATCH, y - 6.0), (x + SWATCH, y + 6.0), (x, y + 6.0)];
                 pen.polygon(&corners, &format!("fill=\"{GREY}\" fill-opacity=\"0.25\""));
                 for y in [y - 6.0, y + 6.0] {
-                    pen.lines([&[(x, y), (x + SWATCH, y)][..]], &format!("stroke=\"{GREY}\""));
+                    pen.lines([[(x, y), (x + SWATCH, y)]], &format!("stroke=\"{GREY}\""));
                 }
                 line(pen, &format!("stroke=\"{GREY}\" stroke-width=\"2\""));
             }

@@ -88,24 +88,24 @@ impl Pen {
     }
 
     /// Lines through points, each with its own beginning.
-    pub fn lines<'a>(&mut self, lines: impl IntoIterator<Item = &'a [Pixel]>, attributes: &str) {
+    pub fn lines(&mut self, lines: impl IntoIterator<Item: AsRef<[Pixel]>>, attributes: &str) {
         self.path(lines, "", &format!("fill=\"none\" {attributes}"));
     }
 
     /// The area between closed lines, each by its corners: what an odd number of them encloses.
-    pub fn area<'a>(&mut self, lines: impl IntoIterator<Item = &'a [Pixel]>, fill: &str) {
+    pub fn area(&mut self, lines: impl IntoIterator<Item: AsRef<[Pixel]>>, fill: &str) {
         self.path(lines, "z", &format!("fill=\"{fill}\" fill-rule=\"evenodd\""));
     }
 
     /// Closed outlines filled as one, each by its corners, with a thin rim of their own colour.
-    pub fn filled<'a>(&mut self, outlines: impl IntoIterator<Item = &'a [Pixel]>, colour: &str) {
+    pub fn filled(&mut self, outlines: impl IntoIterator<Item: AsRef<[Pixel]>>, colour: &str) {
         self.path(outlines, "z", &format!("fill=\"{colour}\" stroke=\"{colour}\" stroke-width=\"0.6\""));
     }
 
-    fn path<'a>(&mut self, lines: impl IntoIterator<Item = &'a [Pixel]>, end: &str, attributes: &str) {
+    fn path(&mut self, lines: impl IntoIterator<Item: AsRef<[Pixel]>>, end: &str, attributes: &str) {
         let mut path = String::new();
         for line in lines {
-            for (index, (x, y)) in line.iter().enumerate() {
+            for (index, (x, y)) in line.as_ref().iter().enumerate() {
                 let _ = write!(path, "{}{x:.1},{y:.1}", if index == 0 { 'M' } else { 'L' });
             }
             path.push_str(end);
@@ -169,8 +169,7 @@ impl Pen {
             let (sine, cosine) = (f64::from(k) * std::f64::consts::FRAC_PI_4).sin_cos();
             [(x + 6.5 * cosine, y + 6.5 * sine), (x + 9.5 * cosine, y + 9.5 * sine)]
         };
-        let rays: Vec<[Pixel; 2]> = (0..8).map(ray).collect();
-        self.lines(rays.iter().map(|ray| &ray[..]), "stroke=\"#e69f00\" stroke-width=\"1.6\"");
+        self.lines((0..8).map(ray), "stroke=\"#e69f00\" stroke-width=\"1.6\"");
         self.circle((x, y), 4.5, "fill=\"#ffd24d\" stroke=\"#e69f00\" stroke-width=\"1.4\"");
     }
 }

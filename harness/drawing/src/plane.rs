@@ -148,9 +148,8 @@ impl PlanePanel {
         pen.within(low, high, |pen| self.areas.iter().for_each(|area| pen.polygon(&at(area), SHADE)));
         frame.grid(pen, axes);
         frame.axes(pen, axes);
-        let thin: Vec<Vec<Pixel>> = pieces(&self.grid).map(at).collect();
         pen.within(low, high, |pen| {
-            pen.lines(thin.iter().map(Vec::as_slice), "stroke=\"#9aa2ac\" stroke-width=\"0.5\"");
+            pen.lines(pieces(&self.grid).map(at), "stroke=\"#9aa2ac\" stroke-width=\"0.5\"");
         });
         for (index, series) in self.series.iter().enumerate() {
             draw_series(pen, frame, index, series, <[(f64, f64)]>::to_vec);

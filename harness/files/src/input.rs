@@ -37,6 +37,15 @@ pub fn open(path: &Path) -> io::Result<File> {
     Ok(file)
 }
 
+/// Names of what a folder holds, in their order; none where it cannot be read.
+pub fn names_in(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
 /// Longest text that [`read_text`] takes, in bytes: that of the TOML files.
 pub const MAX_TEXT_BYTES: u64 = 4 << 20;
 /// Largest table of numbers that is read, in bytes.

@@ -23,7 +23,9 @@ mod temporary;
 pub use destination::{Destination, Growing, is_stdout};
 pub use entries::Entries;
 pub use folder::{OutputFolder, leads_below, remove};
-pub use input::{MAX_TABLE_BYTES, MAX_TEXT_BYTES, kind, open, open_at_most, read, read_at_most, read_text};
+pub use input::{
+    MAX_TABLE_BYTES, MAX_TEXT_BYTES, kind, names_in, open, open_at_most, read, read_at_most, read_text,
+};
 pub use part::Part;
 pub use paths::{part_of, sidecar_of};
 pub use system::canonical;

@@ -39,7 +39,7 @@ impl Default for ArchiveLimits {
 /// Gives the paths of the entries as the archive writes them.
 pub fn unpack(archive: &Path, into: &Path, limits: ArchiveLimits) -> Result<Vec<String>, Error> {
     let refuse = |what: String| Error::Archive { path: archive.to_owned(), what };
-    let file = files::open(archive).map_err(|source| Error::File { path: archive.to_owned(), source })?;
+    let file = files::open(archive).map_err(Error::file(archive))?;
     let mut zip = ZipArchive::new(io::BufReader::new(file))
         .map_err(|error| refuse(foreign::kind(archive).map_or_else(|| error.to_string(), str::to_owned)))?;
     if zip.len() > limits.entries {
@@ -76,24 +76,24 @@ pub fn unpack(archive: &Path, into: &Path, limits: ArchiveLimits) -> Result<Vec<
         let relative =
             path_inside(&name).ok_or_else(|| refuse(format!("entry {name:?} leaves the folder")))?;
         let target = into.join(&relative);
-        let at_target = |source| Error::File { path: target.clone(), source };
+        let at_target = Error::file(&target);
         if entry.is_dir() || name.ends_with('\\') {
-            fs::create_dir_all(&target).map_err(at_target)?;
+            fs::create_dir_all(&target).map_err(&at_target)?;
             names.push(name);
             continue;
         }
         if let Some(parent) = target.parent() {
-            fs::create_dir_all(parent).map_err(at_target)?;
+            fs::create_dir_all(parent).map_err(&at_target)?;
         }
         let mut output = File::create_new(&target).map_err(|source| match source.kind() {
             io::ErrorKind::AlreadyExists => refuse(format!("entry {name:?} stands twice in the archive")),
-            _ => Error::File { path: target.clone(), source },
+            _ => at_target(source),
         })?;
         let listed = entry.size();
         let written = copy(&mut entry.by_ref().take(listed.saturating_add(1)), &mut output).map_err(
             |error| match error {
                 CopyError::Read(error) => refuse(format!("entry {name:?}: {error}")),
-                CopyError::Write(source) => Error::File { path: target.clone(), source },
+                CopyError::Write(source) => at_target(source),
             },
         )?;
         if written > listed {

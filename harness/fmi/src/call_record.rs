@@ -45,25 +45,9 @@ pub(crate) fn log_status(status: Option<Status>) {
     }
 }
 
-/// The number of a symbol; a name that there is not does not compile.
-pub(crate) const fn number(symbol: &str) -> u64 {
-    let mut at = 0;
-    loop {
-        assert!(at < Function::ALL.len(), "no function of FMI 2.0 co-simulation");
-        if is_same(Function::ALL[at].symbol(), symbol) {
-            return at as u64 + 1;
-        }
-        at += 1;
-    }
-}
-
-const fn is_same(one: &str, two: &str) -> bool {
-    let (one, two) = (one.as_bytes(), two.as_bytes());
-    let mut at = 0;
-    while at < one.len() && at < two.len() && one[at] == two[at] {
-        at += 1;
-    }
-    at == one.len() && at == two.len()
+/// The number of a function.
+pub(crate) const fn number(function: Function) -> u64 {
+    function as u64 + 1
 }
 
 /// Loading the shared library, and a heliotorque library's own functions: no functions of the standard.
@@ -71,7 +55,7 @@ pub(crate) const LOADING: u64 = Function::ALL.len() as u64 + 1;
 pub(crate) const DESCRIBING: u64 = LOADING + 1;
 pub(crate) const CHECKING: u64 = LOADING + 2;
 const LOADING_TEXT: &str = "loading the shared library";
-const DO_STEP: u64 = number("fmi2DoStep");
+const DO_STEP: u64 = number(Function::DoStep);
 
 /// From now on calls are recorded as made to this instance, counted from 0; with one alone nothing needs to be said.
 #[inline]
@@ -181,10 +165,10 @@ mod tests {
             word.store(u64::MAX, Ordering::Relaxed);
         }
         assert_eq!(recorded_calls(&record).in_progress, None);
-        record[0].store(number("fmi2Reset"), Ordering::Relaxed);
+        record[0].store(number(Function::Reset), Ordering::Relaxed);
         assert_eq!(recorded_calls(&record).in_progress.as_deref(), Some("fmi2Reset"));
         record[1].store(7, Ordering::Relaxed);
-        assert_eq!(call_in_progress(&record), Some((number("fmi2Reset"), 7)));
+        assert_eq!(call_in_progress(&record), Some((number(Function::Reset), 7)));
         record[2].store(LOADING, Ordering::Relaxed);
         assert_eq!(recorded_calls(&record).last.as_deref(), Some(LOADING_TEXT));
         record[2].store(DO_STEP, Ordering::Relaxed);

@@ -1,6 +1,6 @@
 //! Errors of an FMU, each with file, call and remedy.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::{LogMessage, Status};
 
@@ -23,39 +23,13 @@ pub enum Error {
         /// Fault of the file.
         what: String,
     },
-    /// `modelDescription.xml`, or the requirements of a shared library, cannot be read.
+    /// The FMU, or its shared library, is none that can be used here.
     #[error("{}: {what}", path.display())]
     Unusable {
         /// The FMU or the library.
         path: PathBuf,
         /// Fault, with line and element where known.
         what: String,
-    },
-    /// The FMU offers no co-simulation.
-    #[error("{}: no CoSimulation element in modelDescription.xml: only co-simulation FMUs can be stepped here", path.display())]
-    NoCoSimulation {
-        /// The FMU.
-        path: PathBuf,
-    },
-    /// No shared library for this computer.
-    #[error(
-        "{}: no shared library for this computer: searched for {looked_for}; the FMU holds {found}", path.display()
-    )]
-    NoBinary {
-        /// The FMU.
-        path: PathBuf,
-        /// The paths tried.
-        looked_for: String,
-        /// Platforms the FMU has.
-        found: String,
-    },
-    /// The shared library does not load.
-    #[error("{}: the shared library does not load: {chain}", path.display())]
-    Library {
-        /// The shared library.
-        path: PathBuf,
-        /// The loader's whole chain of reasons.
-        chain: String,
     },
     /// An FMI call failed.
     #[error(transparent)]
@@ -94,28 +68,7 @@ pub enum Error {
     /// Start, stop or step that make no run.
     #[error("{0}")]
     Times(String),
-    /// More would be recorded than memory is given for.
-    #[error(
-        "the run would record {points} points of {columns} variables, allowed are {allowed} points of them: \
-         record less often (--every), fewer variables (--record) or take longer steps (--step)"
-    )]
-    TooMuch {
-        /// Points that would be recorded.
-        points: u64,
-        /// Variables at each.
-        columns: usize,
-        /// Points of as many variables that are allowed.
-        allowed: u64,
-    },
-    /// The texts recorded take more than memory is given for.
-    #[error(
-        "the texts recorded take more than {allowed} bytes: record less often (--every) or fewer (--record)"
-    )]
-    TooLong {
-        /// Bytes that are allowed.
-        allowed: u64,
-    },
-    /// Error of the recipient of the rows.
+    /// The recipient of the rows takes no more, or failed.
     #[error("{0}")]
     Rows(String),
 }
@@ -180,6 +133,11 @@ fn messages_text(messages: &[LogMessage]) -> String {
 }
 
 impl Error {
+    /// The error of the system at this file, for `map_err`.
+    pub fn file(path: &Path) -> impl Fn(std::io::Error) -> Self {
+        |source| Self::File { path: path.to_owned(), source }
+    }
+
     /// The status, if this is an FMI call that was answered.
     pub fn status(&self) -> Option<Status> {
         match self {

@@ -46,13 +46,11 @@ impl Fmu {
     /// platforms can be read.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         let source = path.as_ref().to_owned();
-        let at_source = |error| Error::File { path: source.clone(), source: error };
-        let metadata = std::fs::metadata(&source).map_err(at_source)?;
+        let metadata = std::fs::metadata(&source).map_err(Error::file(&source))?;
         let (folder, entries, temporary) = if metadata.is_dir() {
-            (std::path::absolute(&source).map_err(at_source)?, Vec::new(), None)
+            (std::path::absolute(&source).map_err(Error::file(&source))?, Vec::new(), None)
         } else {
-            let temporary =
-                Scratch::new().map_err(|error| Error::File { path: std::env::temp_dir(), source: error })?;
+            let temporary = Scratch::new().map_err(Error::file(&std::env::temp_dir()))?;
             let entries = archive::unpack(&source, temporary.path(), archive::ArchiveLimits::default())?;
             (temporary.path().to_owned(), entries, Some(temporary))
         };
@@ -67,7 +65,7 @@ impl Fmu {
                     "it is a ZIP archive that holds no modelDescription.xml, so it is no FMU".to_owned()
                 },
             },
-            _ => Error::File { path: xml_path.clone(), source: error },
+            _ => Error::file(&xml_path)(error),
         })?;
         let parsed = model_description::parse(&xml).map_err(|error| Error::Unusable {
             path: source.clone(),
@@ -127,7 +125,10 @@ impl Fmu {
     /// The `CoSimulation` element, or an error for a model-exchange FMU.
     pub fn co_simulation(&self) -> Result<&CoSimulation, Error> {
         let found = self.description().co_simulation.as_ref();
-        found.ok_or_else(|| Error::NoCoSimulation { path: self.0.source.clone() })
+        found.ok_or_else(|| {
+            let what = "no CoSimulation element in modelDescription.xml: only co-simulation FMUs can be stepped here";
+            Error::Unusable { path: self.0.source.clone(), what: what.to_owned() }
+        })
     }
 
     /// The variable called `name`.
@@ -158,15 +159,12 @@ impl Fmu {
                 return Ok(path);
             }
         }
-        let folders = std::fs::read_dir(self.0.folder.join("binaries")).into_iter().flatten().flatten();
-        let mut found: Vec<String> =
-            folders.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
-        found.sort();
-        Err(Error::NoBinary {
-            path: self.0.source.clone(),
-            looked_for: candidates.join(", "),
-            found: if found.is_empty() { "no binaries".to_owned() } else { found.join(", ") },
-        })
+        let found = files::names_in(&self.0.folder.join("binaries"));
+        let searched = candidates.join(", ");
+        let found = if found.is_empty() { "no binaries".to_owned() } else { found.join(", ") };
+        let what =
+            format!("no shared library for this computer: searched for {searched}; the FMU holds {found}");
+        Err(Error::Unusable { path: self.0.source.clone(), what })
     }
 
     /// The shared library, loaded at the first call and kept for the life of the process.

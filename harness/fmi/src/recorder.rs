@@ -125,7 +125,12 @@ impl Collector {
         if points <= MAX_BYTES / row {
             return Ok(());
         }
-        Err(Error::TooMuch { points, columns: self.recording.columns.len(), allowed: MAX_BYTES / row })
+        Err(Error::Rows(format!(
+            "the run would record {points} points of {} variables, allowed are {} points of them: record less often \
+             (--every), fewer variables (--record) or take longer steps (--step)",
+            self.recording.columns.len(),
+            MAX_BYTES / row
+        )))
     }
 
     /// How many values of each base type a row has: Reals, Integers, Booleans, Strings.
@@ -148,7 +153,9 @@ impl Rows for Collector {
     fn take(&mut self, row: &Row<'_>) -> Result<(), Error> {
         self.text_bytes += row.texts.iter().map(|text| text.len() as u64 + TEXT_BYTES).sum::<u64>();
         if self.text_bytes > MAX_BYTES {
-            return Err(Error::TooLong { allowed: MAX_BYTES });
+            return Err(Error::Rows(format!(
+                "the texts recorded take more than {MAX_BYTES} bytes: record less often (--every) or fewer (--record)"
+            )));
         }
         self.recording.times_s.push(row.time_s);
         let columns = &mut self.recording.columns;

@@ -50,8 +50,7 @@ impl Requirements {
     ///
     /// The file cannot be read, is larger than 1 GiB, or is neither ELF nor PE.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let bytes = files::read_at_most(path, MAX_BYTES)
-            .map_err(|source| Error::File { path: path.to_owned(), source })?;
+        let bytes = files::read_at_most(path, MAX_BYTES).map_err(Error::file(path))?;
         let refused = |what: String| Error::Unusable { path: path.to_owned(), what };
         let mut found = match Object::parse(&bytes) {
             Ok(Object::Elf(elf)) => Self::of_elf(&elf),

@@ -1,6 +1,9 @@
 //! Names of variables as people write them: exact, a whole vector, or with `*`.
 
-use model_description::{Causality, Description, ScalarVariable, names::similar};
+use model_description::{
+    Causality, Description, ScalarVariable,
+    names::{element, similar},
+};
 
 use crate::Error;
 
@@ -76,8 +79,7 @@ fn all(description: &Description, fits: impl Fn(&ScalarVariable) -> bool) -> Vec
 /// The vector or matrix that an element is of; of any other variable its name.
 fn vector(name: &str) -> &str {
     let is_indices = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit() || byte == b',');
-    let split = name.strip_suffix(']').and_then(|name| name.rsplit_once('['));
-    split.filter(|(_, indices)| is_indices(indices)).map_or(name, |(vector, _)| vector)
+    element(name).filter(|(_, indices)| is_indices(indices)).map_or(name, |(vector, _)| vector)
 }
 
 /// Returns the error that there is no variable of this name, with similar ones.

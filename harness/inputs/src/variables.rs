@@ -1,7 +1,7 @@
 //! Variables by what people write of them: start values, settings, selections.
 
 use fmi::{Error, Recording, Value};
-use model_description::{Description, ScalarVariable, VariableKind, value};
+use model_description::{Description, ScalarVariable, VariableKind, names, value};
 use nalgebra::Vector3;
 
 use crate::epoch::{self, Dates};
@@ -142,7 +142,7 @@ impl<'d> VariableRow<'d> {
 
 /// The vector that an element is of.
 pub fn vector(name: &str) -> Option<&str> {
-    name.strip_suffix(']').and_then(|name| name.rsplit_once('[')).map(|(vector, _)| vector)
+    names::element(name).map(|(vector, _)| vector)
 }
 
 /// The start value, in the variable's unit, with the display unit or date behind it and the item's name.

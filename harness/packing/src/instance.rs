@@ -7,18 +7,7 @@ use nalgebra::Vector3;
 pub fn started(fmu: &Fmu, name: &str, start_s: f64, sets: &[(String, Value)]) -> Result<Instance, Error> {
     let mut instance = Instance::new(fmu, name, &InstanceOptions::default())?;
     instance.setup_experiment(None, start_s, None)?;
-    let mut inputs = Vec::new();
-    for (name, value) in sets {
-        if fmi::set_early(fmu.variable(name)?)? {
-            instance.set(name, value)?;
-        } else {
-            inputs.push((name, value));
-        }
-    }
-    instance.enter_initialization_mode()?;
-    for (name, value) in inputs {
-        instance.set(name, value)?;
-    }
+    fmi::initialize(&mut instance, sets.iter().map(|(name, value)| (name, value)))?;
     instance.exit_initialization_mode()?;
     Ok(instance)
 }

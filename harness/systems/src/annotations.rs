@@ -3,7 +3,7 @@
 use files::ANNOTATION;
 use model_description::{ReadError, Start, Xml};
 
-use crate::elements::{attribute, list, local, number, refuse};
+use crate::elements::{list, number, refuse};
 
 /// Types of annotations with the elements in them that have a step and the attributes that say it in s, the one that wins first.
 const STEPS: [(&str, &str, &str); 5] = [
@@ -27,7 +27,7 @@ impl AnnotatedStep {
     /// Reads `Annotations` after their start tag.
     pub(crate) fn read(&mut self, xml: &mut Xml<'_>, start: &Start) -> Result<(), ReadError> {
         let annotation = |xml: &mut Xml<'_>, annotation: &Start| {
-            let kind = attribute(annotation, "type").unwrap_or_default().to_owned();
+            let kind = annotation.attribute("type").unwrap_or_default().to_owned();
             if STEPS.iter().any(|(known, ..)| *known == kind) {
                 self.within(xml, annotation, &kind)
             } else {
@@ -41,11 +41,11 @@ impl AnnotatedStep {
     fn within(&mut self, xml: &mut Xml<'_>, parent: &Start, kind: &str) -> Result<(), ReadError> {
         while let Some(child) = xml.child(parent)? {
             let known =
-                STEPS.iter().enumerate().filter(|(_, (of, name, _))| *of == kind && local(&child) == *name);
+                STEPS.iter().enumerate().filter(|(_, (of, name, _))| *of == kind && child.local() == *name);
             for (rank, (.., key)) in known {
                 let Some(step_s) = number(&child, key)? else { continue };
                 if step_s <= 0.0 {
-                    let found = attribute(&child, key).unwrap_or_default();
+                    let found = child.attribute(key).unwrap_or_default();
                     let message =
                         format!("attribute `{key}`: found {found:?}, allowed: a number of seconds above 0");
                     return Err(refuse(&child, message));

@@ -4,14 +4,14 @@ use model_description::{BaseUnit, Code, EnumerationItem, ReadError, Start, Unit,
 
 use crate::structure::{Enumeration, Linear};
 
-/// The name without its prefix.
-pub(crate) fn local(start: &Start) -> &str {
-    start.name.rsplit_once(':').map_or(start.name.as_str(), |(_, name)| name)
-}
-
 /// A refusal at an element.
 pub(crate) fn refuse(start: &Start, message: String) -> ReadError {
     ReadError::new(Code::Malformed, start.line, &start.name, message)
+}
+
+/// A refusal of an element without this attribute.
+pub(crate) fn missing(start: &Start, name: &str) -> ReadError {
+    refuse(start, format!("attribute `{name}` is missing"))
 }
 
 /// A refusal of an element that does not belong where it stands.
@@ -19,17 +19,12 @@ pub(crate) fn unknown(child: &Start, parent: &Start, allowed: &str) -> ReadError
     refuse(child, format!("found in <{}>, allowed there: {allowed}", parent.name))
 }
 
-/// An attribute.
-pub(crate) fn attribute<'a>(start: &'a Start, name: &str) -> Option<&'a str> {
-    start.attributes.iter().find(|(key, _)| key == name).map(|(_, value)| value.as_str())
-}
-
 /// An attribute that has to be there and not empty.
 pub(crate) fn required(start: &Start, name: &str) -> Result<String, ReadError> {
-    match attribute(start, name) {
+    match start.attribute(name) {
         Some(value) if !value.is_empty() => Ok(value.to_owned()),
         Some(_) => Err(refuse(start, format!("attribute `{name}` is empty"))),
-        None => Err(refuse(start, format!("attribute `{name}` is missing"))),
+        None => Err(missing(start, name)),
     }
 }
 
@@ -39,7 +34,8 @@ pub(crate) fn parsed<T: std::str::FromStr>(
     name: &str,
     allowed: &str,
 ) -> Result<Option<T>, ReadError> {
-    attribute(start, name)
+    start
+        .attribute(name)
         .map(|text| {
             text.trim()
                 .parse()
@@ -66,7 +62,7 @@ pub(crate) fn integer(start: &Start, name: &str) -> Result<Option<i32>, ReadErro
 
 /// `true`, `false`, `1` or `0`.
 pub(crate) fn boolean(start: &Start, name: &str) -> Result<Option<bool>, ReadError> {
-    match attribute(start, name).map(str::trim) {
+    match start.attribute(name).map(str::trim) {
         None => Ok(None),
         Some("true" | "1") => Ok(Some(true)),
         Some("false" | "0") => Ok(Some(false)),
@@ -74,6 +70,22 @@ pub(crate) fn boolean(start: &Start, name: &str) -> Result<Option<bool>, ReadErr
             Err(refuse(start, format!("attribute `{name}`: found {text:?}, allowed: true, false, 1, 0")))
         }
     }
+}
+
+/// Reads a file with an element `name` at its root.
+pub(crate) fn file<T>(
+    bytes: &[u8],
+    name: &str,
+    read: impl FnOnce(&mut Xml<'_>, &Start) -> Result<T, ReadError>,
+) -> Result<T, ReadError> {
+    let mut xml = Xml::new(bytes)?;
+    let root = xml.root()?;
+    if root.local() != name {
+        return Err(refuse(&root, format!("found at the root, allowed: {name} of SSP 1.0")));
+    }
+    let found = read(&mut xml, &root)?;
+    xml.finish()?;
+    Ok(found)
 }
 
 /// Reads every child of `parent`; each has to be an element `name`.
@@ -85,7 +97,7 @@ pub(crate) fn list<T>(
 ) -> Result<Vec<T>, ReadError> {
     let mut all = Vec::new();
     while let Some(element) = xml.child(parent)? {
-        if local(&element) != name {
+        if element.local() != name {
             return Err(unknown(&element, parent, name));
         }
         all.push(read(xml, &element)?);
@@ -102,7 +114,7 @@ pub(crate) fn leaves<T>(
 ) -> Result<Vec<T>, ReadError> {
     let mut all = Vec::new();
     while let Some(child) = xml.child(parent)? {
-        if local(&child) == name {
+        if child.local() == name {
             all.push(read(&child)?);
         }
         xml.skip(&child)?;
@@ -142,8 +154,7 @@ pub(crate) fn enumerations(xml: &mut Xml<'_>, parent: &Start) -> Result<Vec<Enum
     list(xml, parent, "Enumeration", |xml, element| {
         let name = required(element, "name")?;
         let items = leaves(xml, element, "Item", |item| {
-            let value = integer(item, "value")?
-                .ok_or_else(|| refuse(item, "attribute `value` is missing".to_owned()))?;
+            let value = integer(item, "value")?.ok_or_else(|| missing(item, "value"))?;
             Ok(EnumerationItem { name: required(item, "name")?, value, description: None })
         })?;
         Ok(Enumeration { name, items })

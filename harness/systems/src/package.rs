@@ -33,13 +33,12 @@ pub(crate) struct Package {
 impl Package {
     /// Unpacks an `.ssp` file, or takes the folder that one was unpacked into.
     pub(crate) fn open(path: &Path) -> Result<Self, Error> {
-        let at_path = |source| fmi::Error::File { path: path.to_owned(), source };
-        if std::fs::metadata(path).map_err(at_path)?.is_dir() {
+        let at_path = fmi::Error::file(path);
+        if std::fs::metadata(path).map_err(&at_path)?.is_dir() {
             let folder = std::path::absolute(path).map_err(at_path)?;
             return Ok(Self { source: path.to_owned(), folder, _temporary: None });
         }
-        let temporary =
-            Scratch::new().map_err(|source| fmi::Error::File { path: std::env::temp_dir(), source })?;
+        let temporary = Scratch::new().map_err(fmi::Error::file(&std::env::temp_dir()))?;
         fmi::unpack(path, temporary.path(), ArchiveLimits::default()).map_err(|error| match error {
             fmi::Error::Archive { path, what } => Error::Archive { path, what },
             other => other.into(),
@@ -58,7 +57,7 @@ impl Package {
                 what: format!("it holds no {SSD_FILE}, so it is no system"),
             },
             io::ErrorKind::NotFound => refuse(format!("there is no such file in the SSP{}", self.listed())),
-            _ => fmi::Error::File { path, source: error }.into(),
+            _ => fmi::Error::file(&path)(error).into(),
         })
     }
 
@@ -83,15 +82,11 @@ impl Package {
             return Err(refuse(format!("{source:?} is not in the SSP{}", self.listed())));
         }
         let into = path.with_extension("unpacked");
-        let failed = |path: &Path| {
-            let path = path.to_owned();
-            move |source| fmi::Error::File { path, source }
-        };
-        std::fs::create_dir(&into).map_err(failed(&into))?;
+        std::fs::create_dir(&into).map_err(fmi::Error::file(&into))?;
         fmi::unpack(&path, &into, ArchiveLimits::default())
             .map_err(|error| refuse(format!("{source:?}: {}", reason(&error))))?;
-        std::fs::remove_file(&path).map_err(failed(&path))?;
-        std::fs::rename(&into, &path).map_err(failed(&into))?;
+        std::fs::remove_file(&path).map_err(fmi::Error::file(&path))?;
+        std::fs::rename(&into, &path).map_err(fmi::Error::file(&into))?;
         Ok(path)
     }
 
@@ -102,10 +97,8 @@ impl Package {
 
     /// Returns the names of the resources, for refusals.
     fn listed(&self) -> String {
-        let entries = std::fs::read_dir(self.folder.join("resources")).into_iter().flatten().flatten();
-        let mut names: Vec<String> =
-            entries.map(|entry| format!("resources/{}", entry.file_name().to_string_lossy())).collect();
-        names.sort();
+        let names = files::names_in(&self.folder.join("resources"));
+        let names: Vec<String> = names.iter().map(|name| format!("resources/{name}")).collect();
         if names.is_empty() { String::new() } else { format!(", allowed: {}", names.join(", ")) }
     }
 }

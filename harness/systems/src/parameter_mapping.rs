@@ -3,7 +3,7 @@
 use model_description::{ReadError, Start, Xml};
 
 use crate::{
-    elements::{attribute, boolean, integer, leaves, linear, local, refuse, required, unknown},
+    elements::{boolean, file, integer, leaves, linear, missing, required, unknown},
     joint::near,
     structure::{Linear, Mapping, MappingEntry, Parameter, ParameterSet, Transformation, Written},
 };
@@ -28,22 +28,15 @@ pub(crate) struct Mapped {
 
 /// Reads a file.
 pub(crate) fn read(bytes: &[u8]) -> Result<Vec<MappingEntry>, ReadError> {
-    let mut xml = Xml::new(bytes)?;
-    let root = xml.root()?;
-    if local(&root) != "ParameterMapping" {
-        return Err(refuse(&root, "found at the root, allowed: ParameterMapping of SSP 1.0".to_owned()));
-    }
-    let entries = element(&mut xml, &root)?;
-    xml.finish()?;
-    Ok(entries)
+    file(bytes, "ParameterMapping", element)
 }
 
 /// Reads a `ParameterMapping` after its start tag. Entries without a source are those of a template that nobody filled in.
 pub(crate) fn element(xml: &mut Xml<'_>, start: &Start) -> Result<Vec<MappingEntry>, ReadError> {
     let mut entries = Vec::new();
     while let Some(child) = xml.child(start)? {
-        match local(&child) {
-            "MappingEntry" if attribute(&child, "source") == Some("") => xml.skip(&child)?,
+        match child.local() {
+            "MappingEntry" if child.attribute("source") == Some("") => xml.skip(&child)?,
             "MappingEntry" => entries.push(entry(xml, &child)?),
             "Annotations" => xml.skip(&child)?,
             _ => return Err(unknown(&child, start, "MappingEntry, Annotations")),
@@ -61,8 +54,7 @@ fn entry(xml: &mut Xml<'_>, start: &Start) -> Result<MappingEntry, ReadError> {
         line: start.line,
     };
     while let Some(child) = xml.child(start)? {
-        let missing = |map: &Start, name: &str| refuse(map, format!("attribute `{name}` is missing"));
-        let found = match local(&child) {
+        let found = match child.local() {
             "LinearTransformation" => {
                 let linear = linear(&child)?;
                 xml.skip(&child)?;

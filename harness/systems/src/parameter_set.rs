@@ -3,28 +3,21 @@
 use model_description::{ReadError, Start, Xml};
 
 use crate::{
-    elements::{attribute, boolean, integer, list, local, number, refuse, required, units, unknown},
+    elements::{boolean, file, integer, list, missing, number, refuse, required, units, unknown},
     structure::{Parameter, ParameterSet, Written},
 };
 
 /// Reads a file.
 pub(crate) fn read(bytes: &[u8]) -> Result<ParameterSet, ReadError> {
-    let mut xml = Xml::new(bytes)?;
-    let root = xml.root()?;
-    if local(&root) != "ParameterSet" {
-        return Err(refuse(&root, "found at the root, allowed: ParameterSet of SSP 1.0".to_owned()));
-    }
-    let set = element(&mut xml, &root)?;
-    xml.finish()?;
-    Ok(set)
+    file(bytes, "ParameterSet", element)
 }
 
 /// Reads a `ParameterSet` after its start tag.
 pub(crate) fn element(xml: &mut Xml<'_>, start: &Start) -> Result<ParameterSet, ReadError> {
     let mut set =
-        ParameterSet { name: attribute(start, "name").unwrap_or_default().to_owned(), ..Default::default() };
+        ParameterSet { name: start.attribute("name").unwrap_or_default().to_owned(), ..Default::default() };
     while let Some(child) = xml.child(start)? {
-        match local(&child) {
+        match child.local() {
             "Parameters" => set.parameters.extend(list(xml, &child, "Parameter", parameter)?),
             "Units" => set.units = units(xml, &child)?,
             "Enumerations" | "Annotations" => xml.skip(&child)?,
@@ -38,7 +31,7 @@ fn parameter(xml: &mut Xml<'_>, start: &Start) -> Result<Parameter, ReadError> {
     let name = required(start, "name")?;
     let mut value = None;
     while let Some(child) = xml.child(start)? {
-        if local(&child) != "Annotations" {
+        if child.local() != "Annotations" {
             value = Some(written(&child, start)?);
         }
         xml.skip(&child)?;
@@ -51,15 +44,15 @@ fn parameter(xml: &mut Xml<'_>, start: &Start) -> Result<Parameter, ReadError> {
 const TYPES: &str = "Real, Integer, Boolean, String, Enumeration";
 
 fn written(child: &Start, parent: &Start) -> Result<Written, ReadError> {
-    let missing = || refuse(child, "attribute `value` is missing".to_owned());
-    Ok(match local(child) {
+    let missing = || missing(child, "value");
+    Ok(match child.local() {
         "Real" => Written::Real {
             value: number(child, "value")?.ok_or_else(missing)?,
-            unit: attribute(child, "unit").map(str::to_owned),
+            unit: child.attribute("unit").map(str::to_owned),
         },
         "Integer" => Written::Integer(integer(child, "value")?.ok_or_else(missing)?),
         "Boolean" => Written::Boolean(boolean(child, "value")?.ok_or_else(missing)?),
-        "String" => Written::Text(attribute(child, "value").ok_or_else(missing)?.to_owned()),
+        "String" => Written::Text(child.attribute("value").ok_or_else(missing)?.to_owned()),
         "Enumeration" => Written::Enumeration(required(child, "value")?),
         _ => return Err(unknown(child, parent, TYPES)),
     })

@@ -4,9 +4,7 @@ use model_description::{DefaultExperiment, ReadError, Start, Xml};
 
 use crate::{
     annotations::AnnotatedStep,
-    elements::{
-        attribute, boolean, enumerations, linear, list, local, number, refuse, required, units, unknown,
-    },
+    elements::{boolean, enumerations, file, linear, list, number, refuse, required, units, unknown},
     parameter_mapping, parameter_set,
     structure::{Binding, Component, Connection, Connector, ConnectorKind, End, Mapping, Signal, Structure},
 };
@@ -25,40 +23,37 @@ const CONNECTOR_TYPES: &str = "Real, Integer, Boolean, String, Enumeration, Bina
 /// # Errors
 /// XML that is not well-formed, and what cannot be simulated here.
 pub fn read(bytes: &[u8]) -> Result<Structure, ReadError> {
-    let mut xml = Xml::new(bytes)?;
-    let root = xml.root()?;
-    if local(&root) != "SystemStructureDescription" {
-        let message = "found at the root, allowed: SystemStructureDescription of SSP 1.0".to_owned();
-        return Err(refuse(&root, message));
-    }
-    let version = required(&root, "version")?;
+    file(bytes, "SystemStructureDescription", structure)
+}
+
+fn structure(xml: &mut Xml<'_>, root: &Start) -> Result<Structure, ReadError> {
+    let version = required(root, "version")?;
     if !version.starts_with("1.") {
-        return Err(refuse(&root, format!("attribute `version`: found {version:?}, allowed: 1.0")));
+        return Err(refuse(root, format!("attribute `version`: found {version:?}, allowed: 1.0")));
     }
-    let mut structure = Structure { name: required(&root, "name")?, ..Structure::default() };
+    let mut structure = Structure { name: required(root, "name")?, ..Structure::default() };
     let mut has_system = false;
     let mut step = AnnotatedStep::default();
-    while let Some(child) = xml.child(&root)? {
-        match local(&child) {
+    while let Some(child) = xml.child(root)? {
+        match child.local() {
             "System" => {
                 has_system = true;
-                system(&mut xml, &child, &mut structure, &mut step)?;
+                system(xml, &child, &mut structure, &mut step)?;
             }
-            "Enumerations" => structure.enumerations = enumerations(&mut xml, &child)?,
-            "Units" => structure.units = units(&mut xml, &child)?,
-            "DefaultExperiment" => structure.experiment = experiment(&mut xml, &child, &mut step)?,
+            "Enumerations" => structure.enumerations = enumerations(xml, &child)?,
+            "Units" => structure.units = units(xml, &child)?,
+            "DefaultExperiment" => structure.experiment = experiment(xml, &child, &mut step)?,
             "Annotations" => xml.skip(&child)?,
             _ => {
                 let allowed = "System, Enumerations, Units, DefaultExperiment, Annotations";
-                return Err(unknown(&child, &root, allowed));
+                return Err(unknown(&child, root, allowed));
             }
         }
     }
     if !has_system {
-        return Err(refuse(&root, "has no System".to_owned()));
+        return Err(refuse(root, "has no System".to_owned()));
     }
     structure.experiment.step_size = step.step_s();
-    xml.finish()?;
     Ok(structure)
 }
 
@@ -69,7 +64,7 @@ fn system(
     step: &mut AnnotatedStep,
 ) -> Result<(), ReadError> {
     while let Some(child) = xml.child(start)? {
-        match local(&child) {
+        match child.local() {
             "Elements" => elements(xml, &child, structure)?,
             "Connections" => structure.connections.extend(list(xml, &child, "Connection", connection)?),
             "ParameterBindings" => structure.bindings = list(xml, &child, "ParameterBinding", binding)?,
@@ -90,14 +85,14 @@ fn system(
 
 fn elements(xml: &mut Xml<'_>, start: &Start, structure: &mut Structure) -> Result<(), ReadError> {
     while let Some(child) = xml.child(start)? {
-        match local(&child) {
+        match child.local() {
             "Component" if structure.components.len() == MAX_COMPONENTS => {
                 let message = format!("one more component, allowed: at most {MAX_COMPONENTS}");
                 return Err(refuse(&child, message));
             }
             "Component" => structure.components.push(component(xml, &child)?),
             "System" => {
-                let name = attribute(&child, "name").unwrap_or_default();
+                let name = child.attribute("name").unwrap_or_default();
                 let message = format!("system {name:?} stands in a system, allowed: components alone");
                 return Err(refuse(&child, message));
             }
@@ -110,7 +105,7 @@ fn elements(xml: &mut Xml<'_>, start: &Start, structure: &mut Structure) -> Resu
 fn component(xml: &mut Xml<'_>, start: &Start) -> Result<Component, ReadError> {
     let name = required(start, "name")?;
     for (key, allowed) in [("type", &[FMU_TYPE][..]), ("implementation", &["any", "CoSimulation"])] {
-        if let Some(found) = attribute(start, key).filter(|found| !allowed.contains(found)) {
+        if let Some(found) = start.attribute(key).filter(|found| !allowed.contains(found)) {
             let allowed = allowed.join(", ");
             let message = format!("component {name:?}: {key} {found:?} is not simulated, allowed: {allowed}");
             return Err(refuse(start, message));
@@ -119,7 +114,7 @@ fn component(xml: &mut Xml<'_>, start: &Start) -> Result<Component, ReadError> {
     let source = required(start, "source")?;
     let mut component = Component { name, source, line: start.line, ..Component::default() };
     while let Some(child) = xml.child(start)? {
-        match local(&child) {
+        match child.local() {
             "Connectors" => component.connectors = list(xml, &child, "Connector", connector)?,
             "ParameterBindings" => component.bindings = list(xml, &child, "ParameterBinding", binding)?,
             "ElementGeometry" | "Annotations" => xml.skip(&child)?,
@@ -142,9 +137,9 @@ fn connector(xml: &mut Xml<'_>, start: &Start) -> Result<Connector, ReadError> {
     };
     let mut signal = None;
     while let Some(child) = xml.child(start)? {
-        match local(&child) {
+        match child.local() {
             "Real" => {
-                signal = Some(Signal::Real { unit: attribute(&child, "unit").map(str::to_owned) });
+                signal = Some(Signal::Real { unit: child.attribute("unit").map(str::to_owned) });
             }
             "Integer" => signal = Some(Signal::Integer),
             "Boolean" => signal = Some(Signal::Boolean),
@@ -162,7 +157,7 @@ fn connector(xml: &mut Xml<'_>, start: &Start) -> Result<Connector, ReadError> {
 fn connection(xml: &mut Xml<'_>, start: &Start) -> Result<Connection, ReadError> {
     let end = |element: &str, connector: &str| {
         Ok::<_, ReadError>(End {
-            component: attribute(start, element).map(str::to_owned),
+            component: start.attribute(element).map(str::to_owned),
             connector: required(start, connector)?,
         })
     };
@@ -174,7 +169,7 @@ fn connection(xml: &mut Xml<'_>, start: &Start) -> Result<Connection, ReadError>
         line: start.line,
     };
     while let Some(child) = xml.child(start)? {
-        match local(&child) {
+        match child.local() {
             "LinearTransformation" => {
                 connection.transformation = Some(linear(&child)?);
             }
@@ -189,21 +184,21 @@ fn connection(xml: &mut Xml<'_>, start: &Start) -> Result<Connection, ReadError>
 fn binding(xml: &mut Xml<'_>, start: &Start) -> Result<Binding, ReadError> {
     check_source(start, SSV_TYPE)?;
     let mut binding = Binding {
-        source: attribute(start, "source").map(str::to_owned),
-        prefix: attribute(start, "prefix").unwrap_or_default().to_owned(),
+        source: start.attribute("source").map(str::to_owned),
+        prefix: start.attribute("prefix").unwrap_or_default().to_owned(),
         sets: Vec::new(),
         mapping: None,
         line: start.line,
     };
     while let Some(child) = xml.child(start)? {
-        match local(&child) {
+        match child.local() {
             "ParameterValues" => {
                 binding.sets.extend(list(xml, &child, "ParameterSet", parameter_set::element)?);
             }
             "ParameterMapping" => {
                 check_source(&child, SSM_TYPE)?;
                 let inline = list(xml, &child, "ParameterMapping", parameter_mapping::element)?;
-                let source = attribute(&child, "source").map(str::to_owned);
+                let source = child.attribute("source").map(str::to_owned);
                 binding.mapping = Some(Mapping { source, entries: inline.into_iter().flatten().collect() });
             }
             "Annotations" => xml.skip(&child)?,
@@ -216,7 +211,7 @@ fn binding(xml: &mut Xml<'_>, start: &Start) -> Result<Binding, ReadError> {
 /// Refuses a source of another type than this, and one that stands in a component.
 fn check_source(start: &Start, media_type: &str) -> Result<(), ReadError> {
     for (key, allowed) in [("type", media_type), ("sourceBase", "SSD")] {
-        if let Some(found) = attribute(start, key).filter(|found| *found != allowed) {
+        if let Some(found) = start.attribute(key).filter(|found| *found != allowed) {
             return Err(refuse(start, format!("{key} {found:?} is not read, allowed: {allowed}")));
         }
     }

@@ -1,6 +1,6 @@
 //! Inputs that a component reads at some items of an option alone, as its FMU annotates them, and what is connected in vain.
 
-use model_description::{Description, value};
+use model_description::{Description, names, value};
 
 /// Inputs of a component that are connected and not read.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -47,16 +47,13 @@ pub(crate) fn unread(
             let number = number(&reading.option);
             let Some(item) = items.iter().find(|item| Some(item.value) == number) else { continue };
             // An annotation without an item of this option says nothing of it.
-            let names =
-                items.iter().filter(|item| item.is_among(&reading.items)).map(|item| item.name.clone());
-            let names: Vec<String> = names.collect();
-            if names.is_empty() || item.is_among(&reading.items) {
+            let reads = items.iter().filter(|item| item.is_among(&reading.items));
+            let reads: Vec<String> = reads.map(|item| item.name.clone()).collect();
+            if reads.is_empty() || item.is_among(&reading.items) {
                 continue;
             }
-            let vector =
-                input.strip_suffix(']').and_then(|name| name.rsplit_once('[')).map_or(*input, |(of, _)| of);
-            let input = vector.to_owned();
-            let known = found.iter_mut().find(|it| it.option == reading.option && it.reading == names);
+            let input = names::element(input).map_or(*input, |(vector, _)| vector).to_owned();
+            let known = found.iter_mut().find(|it| it.option == reading.option && it.reading == reads);
             match known {
                 Some(known) if known.inputs.contains(&input) => {}
                 Some(known) => known.inputs.push(input),
@@ -67,7 +64,7 @@ pub(crate) fn unread(
                         inputs: vec![input],
                         option: reading.option.clone(),
                         item: item.name.clone(),
-                        reading: names,
+                        reading: reads,
                         implied: set.map(|item| item.name.clone()),
                     });
                 }

@@ -1,15 +1,9 @@
 //! Writes `SystemStructure.ssd` (SSP 1.0): UTF-8, in the schema's order, the same bytes for the same structure.
 
-use std::fmt::Write;
-
 use files::ANNOTATION;
-use model_description::{Unit, escape};
+use model_description::{Unit, Writer};
 
 use crate::structure::{Component, Connection, Connector, ParameterSet, Signal, Structure, Written};
-
-const HEAD: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ssd:SystemStructureDescription \
-                    xmlns:ssc=\"http://ssp-standard.org/SSP1/SystemStructureCommon\" \
-                    xmlns:ssd=\"http://ssp-standard.org/SSP1/SystemStructureDescription\" version=\"1.0\"";
 
 /// Components are drawn in a row, in the order in which a master calls them.
 const WIDTH_MM: usize = 60;
@@ -25,191 +19,171 @@ const OMSIMULATOR_TOLERANCE: f64 = 1e-4;
 
 /// The file of a parameter set (`.ssv`).
 pub fn to_parameter_set(set: &ParameterSet) -> String {
-    let mut text = format!(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ssv:ParameterSet \
-         xmlns:ssv=\"http://ssp-standard.org/SSP1/SystemStructureParameterValues\" version=\"1.0\" name=\"{}\">\n  \
-         <ssv:Parameters>\n",
-        escape(&set.name)
-    );
-    for parameter in &set.parameters {
-        let value = match &parameter.value {
-            Written::Real { value, unit: Some(unit) } => format!("{value}\" unit=\"{}", escape(unit)),
-            Written::Real { value, unit: None } => value.to_string(),
-            Written::Integer(value) => value.to_string(),
-            Written::Boolean(value) => value.to_string(),
-            Written::Text(text) | Written::Enumeration(text) => escape(text),
-        };
-        let word = parameter.value.word();
-        let name = escape(&parameter.name);
-        text.push_str(&format!(
-            "    <ssv:Parameter name=\"{name}\"><ssv:{word} value=\"{value}\"/></ssv:Parameter>\n"
-        ));
+    let mut out = Writer::new();
+    out.element("ssv:ParameterSet", |out| {
+        out.shown("xmlns:ssv", "http://ssp-standard.org/SSP1/SystemStructureParameterValues");
+        out.shown("version", "1.0");
+        out.shown("name", &set.name);
+        out.list("ssv:Parameters", &set.parameters, |out, parameter| {
+            out.inline("ssv:Parameter", |out| {
+                out.shown("name", &parameter.name);
+                out.element(format!("ssv:{}", parameter.value.word()), |out| value(out, &parameter.value));
+            });
+        });
+    });
+    out.finish()
+}
+
+fn value(out: &mut Writer, written: &Written) {
+    match written {
+        Written::Real { value, unit } => {
+            out.shown("value", value);
+            unit.iter().for_each(|unit| out.shown("unit", unit));
+        }
+        Written::Integer(value) => out.shown("value", value),
+        Written::Boolean(value) => out.shown("value", value),
+        Written::Text(text) | Written::Enumeration(text) => out.shown("value", text),
     }
-    text.push_str("  </ssv:Parameters>\n</ssv:ParameterSet>\n");
-    text
 }
 
 /// The file of a structure. Of parameter bindings those with a file are written.
 pub fn to_xml(structure: &Structure) -> String {
-    let mut text = String::from(HEAD);
-    // Writing to a String cannot fail.
-    let _ = write_structure(&mut text, structure);
-    text
+    let mut out = Writer::new();
+    out.element("ssd:SystemStructureDescription", |out| {
+        out.shown("xmlns:ssc", "http://ssp-standard.org/SSP1/SystemStructureCommon");
+        out.shown("xmlns:ssd", "http://ssp-standard.org/SSP1/SystemStructureDescription");
+        out.shown("version", "1.0");
+        out.shown("name", &structure.name);
+        out.shown("generationTool", concat!("heliotorque ", env!("CARGO_PKG_VERSION")));
+        out.element("ssd:System", |out| system(out, structure));
+        out.list("ssd:Enumerations", &structure.enumerations, |out, enumeration| {
+            out.element("ssc:Enumeration", |out| {
+                out.shown("name", &enumeration.name);
+                for item in &enumeration.items {
+                    out.element("ssc:Item", |out| {
+                        out.shown("name", &item.name);
+                        out.shown("value", item.value);
+                    });
+                }
+            });
+        });
+        out.list("ssd:Units", &structure.units, unit);
+        out.element("ssd:DefaultExperiment", |out| experiment(out, structure));
+    });
+    out.finish()
 }
 
-fn write_structure(to: &mut String, structure: &Structure) -> std::fmt::Result {
-    let name = escape(&structure.name);
-    let tool = concat!("heliotorque ", env!("CARGO_PKG_VERSION"));
-    writeln!(to, " name=\"{name}\" generationTool=\"{tool}\">")?;
-    writeln!(to, "  <ssd:System name=\"{name}\">")?;
-    write_connectors(to, &structure.connectors, "    ")?;
-    writeln!(to, "    <ssd:Elements>")?;
-    for (place, component) in structure.components.iter().enumerate() {
-        write_component(to, component, place)?;
-    }
-    writeln!(to, "    </ssd:Elements>")?;
-    if !structure.connections.is_empty() {
-        writeln!(to, "    <ssd:Connections>")?;
-        for connection in &structure.connections {
-            write_connection(to, connection)?;
+fn system(out: &mut Writer, structure: &Structure) {
+    out.shown("name", &structure.name);
+    out.list("ssd:Connectors", &structure.connectors, connector);
+    out.element("ssd:Elements", |out| {
+        for (place, it) in structure.components.iter().enumerate() {
+            out.element("ssd:Component", |out| component(out, it, place));
         }
-        writeln!(to, "    </ssd:Connections>")?;
-    }
-    if let Some(step_s) = structure.experiment.step_size {
-        let [tool, schema] = OMSIMULATOR;
-        let tolerance = OMSIMULATOR_TOLERANCE;
-        writeln!(
-            to,
-            "    <ssd:Annotations>\n      <ssc:Annotation type=\"{tool}\">\n        <oms:Annotations \
-             xmlns:oms=\"{schema}\">\n          <oms:SimulationInformation>\n            <oms:FixedStepMaster \
-             description=\"oms-ma\" stepSize=\"{step_s}\" absoluteTolerance=\"{tolerance}\" \
-             relativeTolerance=\"{tolerance}\"/>\n          </oms:SimulationInformation>\n        \
-             </oms:Annotations>\n      </ssc:Annotation>\n    </ssd:Annotations>"
-        )?;
-    }
-    writeln!(to, "  </ssd:System>")?;
-    if !structure.enumerations.is_empty() {
-        writeln!(to, "  <ssd:Enumerations>")?;
-        for enumeration in &structure.enumerations {
-            writeln!(to, "    <ssc:Enumeration name=\"{}\">", escape(&enumeration.name))?;
-            for item in &enumeration.items {
-                writeln!(to, "      <ssc:Item name=\"{}\" value=\"{}\"/>", escape(&item.name), item.value)?;
-            }
-            writeln!(to, "    </ssc:Enumeration>")?;
-        }
-        writeln!(to, "  </ssd:Enumerations>")?;
-    }
-    if !structure.units.is_empty() {
-        writeln!(to, "  <ssd:Units>")?;
-        structure.units.iter().try_for_each(|unit| write_unit(to, unit))?;
-        writeln!(to, "  </ssd:Units>")?;
-    }
-    let experiment = structure.experiment;
-    write!(to, "  <ssd:DefaultExperiment")?;
-    for (name, value) in [("startTime", experiment.start_time), ("stopTime", experiment.stop_time)] {
-        if let Some(value) = value {
-            write!(to, " {name}=\"{value}\"")?;
-        }
-    }
-    match experiment.step_size {
-        Some(step_s) => writeln!(
-            to,
-            ">\n    <ssd:Annotations>\n      <ssc:Annotation type=\"{ANNOTATION}\">\
-             <heliotorque:Step xmlns:heliotorque=\"https://heliotorque/ssp\" size=\"{step_s}\"/>\
-             </ssc:Annotation>\n    </ssd:Annotations>\n  </ssd:DefaultExperiment>"
-        )?,
-        None => writeln!(to, "/>")?,
-    }
-    writeln!(to, "</ssd:SystemStructureDescription>")
+    });
+    out.list("ssd:Connections", &structure.connections, connection);
+    let Some(step_s) = structure.experiment.step_size else { return };
+    let [tool, schema] = OMSIMULATOR;
+    let master = |out: &mut Writer| {
+        out.shown("description", "oms-ma");
+        out.shown("stepSize", step_s);
+        out.shown("absoluteTolerance", OMSIMULATOR_TOLERANCE);
+        out.shown("relativeTolerance", OMSIMULATOR_TOLERANCE);
+    };
+    out.element("ssd:Annotations", |out| {
+        out.element("ssc:Annotation", |out| {
+            out.shown("type", tool);
+            out.element("oms:Annotations", |out| {
+                out.shown("xmlns:oms", schema);
+                out.element("oms:SimulationInformation", |out| out.element("oms:FixedStepMaster", master));
+            });
+        });
+    });
 }
 
 /// A component, drawn at its place in the row of all.
-fn write_component(to: &mut String, component: &Component, place: usize) -> std::fmt::Result {
-    writeln!(
-        to,
-        "      <ssd:Component name=\"{}\" type=\"application/x-fmu-sharedlibrary\" source=\"{}\" \
-         implementation=\"CoSimulation\">",
-        escape(&component.name),
-        escape(&component.source)
-    )?;
-    write_connectors(to, &component.connectors, "        ")?;
-    let left_mm = place * PITCH_MM;
-    writeln!(
-        to,
-        "        <ssd:ElementGeometry x1=\"{left_mm}\" y1=\"0\" x2=\"{}\" y2=\"{HEIGHT_MM}\"/>",
-        left_mm + WIDTH_MM
-    )?;
+fn component(out: &mut Writer, component: &Component, place: usize) {
+    out.shown("name", &component.name);
+    out.shown("type", "application/x-fmu-sharedlibrary");
+    out.shown("source", &component.source);
+    out.shown("implementation", "CoSimulation");
+    out.list("ssd:Connectors", &component.connectors, connector);
+    out.element("ssd:ElementGeometry", |out| {
+        let left_mm = place * PITCH_MM;
+        for (corner, at_mm) in [("x1", left_mm), ("y1", 0), ("x2", left_mm + WIDTH_MM), ("y2", HEIGHT_MM)] {
+            out.shown(corner, at_mm);
+        }
+    });
     let files = component.bindings.iter().filter_map(|binding| binding.source.as_ref());
-    let files: Vec<_> = files.collect();
-    if !files.is_empty() {
-        writeln!(to, "        <ssd:ParameterBindings>")?;
-        for file in files {
-            writeln!(to, "          <ssd:ParameterBinding source=\"{}\"/>", escape(file))?;
-        }
-        writeln!(to, "        </ssd:ParameterBindings>")?;
-    }
-    writeln!(to, "      </ssd:Component>")
+    out.list("ssd:ParameterBindings", &files.collect::<Vec<_>>(), |out, file| {
+        out.element("ssd:ParameterBinding", |out| out.shown("source", file));
+    });
 }
 
-fn write_connectors(to: &mut String, connectors: &[Connector], indent: &str) -> std::fmt::Result {
-    if connectors.is_empty() {
-        return Ok(());
-    }
-    writeln!(to, "{indent}<ssd:Connectors>")?;
-    for connector in connectors {
-        let (name, kind) = (escape(&connector.name), connector.kind.word());
-        write!(to, "{indent}  <ssd:Connector name=\"{name}\" kind=\"{kind}\"")?;
-        match &connector.signal {
-            None => writeln!(to, "/>")?,
-            Some(signal) => {
-                let attribute = match signal {
-                    Signal::Real { unit: Some(unit) } => format!(" unit=\"{}\"", escape(unit)),
-                    Signal::Enumeration { name } => format!(" name=\"{}\"", escape(name)),
-                    _ => String::new(),
-                };
-                writeln!(to, "><ssc:{}{attribute}/></ssd:Connector>", signal.word())?;
+fn connector(out: &mut Writer, connector: &Connector) {
+    out.inline("ssd:Connector", |out| {
+        out.shown("name", &connector.name);
+        out.shown("kind", connector.kind.word());
+        let Some(signal) = &connector.signal else { return };
+        out.element(format!("ssc:{}", signal.word()), |out| match signal {
+            Signal::Real { unit: Some(unit) } => out.shown("unit", unit),
+            Signal::Enumeration { name } => out.shown("name", name),
+            _ => {}
+        });
+    });
+}
+
+fn connection(out: &mut Writer, connection: &Connection) {
+    out.inline("ssd:Connection", |out| {
+        for (end, element, connector) in [
+            (&connection.start, "startElement", "startConnector"),
+            (&connection.end, "endElement", "endConnector"),
+        ] {
+            end.component.iter().for_each(|component| out.shown(element, component));
+            out.shown(connector, &end.connector);
+        }
+        if connection.suppress_unit_conversion {
+            out.shown("suppressUnitConversion", true);
+        }
+        if let Some(linear) = connection.transformation {
+            out.element("ssc:LinearTransformation", |out| {
+                out.shown("factor", linear.factor);
+                out.shown("offset", linear.offset);
+            });
+        }
+    });
+}
+
+fn unit(out: &mut Writer, unit: &Unit) {
+    out.inline("ssc:Unit", |out| {
+        out.shown("name", &unit.name);
+        out.element("ssc:BaseUnit", |out| {
+            let base = unit.base.unwrap_or_default();
+            for (name, exponent) in base.exponents().into_iter().filter(|(_, exponent)| *exponent != 0) {
+                out.shown(name, exponent);
             }
-        }
-    }
-    writeln!(to, "{indent}</ssd:Connectors>")
+            for (name, number, default) in [("factor", base.factor, 1.0), ("offset", base.offset, 0.0)] {
+                if number != default {
+                    out.shown(name, number);
+                }
+            }
+        });
+    });
 }
 
-fn write_connection(to: &mut String, connection: &Connection) -> std::fmt::Result {
-    write!(to, "      <ssd:Connection")?;
-    for (end, element, connector) in [
-        (&connection.start, "startElement", "startConnector"),
-        (&connection.end, "endElement", "endConnector"),
-    ] {
-        if let Some(component) = &end.component {
-            write!(to, " {element}=\"{}\"", escape(component))?;
-        }
-        write!(to, " {connector}=\"{}\"", escape(&end.connector))?;
+fn experiment(out: &mut Writer, structure: &Structure) {
+    let experiment = structure.experiment;
+    for (name, value) in [("startTime", experiment.start_time), ("stopTime", experiment.stop_time)] {
+        value.iter().for_each(|value| out.shown(name, value));
     }
-    if connection.suppress_unit_conversion {
-        write!(to, " suppressUnitConversion=\"true\"")?;
-    }
-    match connection.transformation {
-        None => writeln!(to, "/>"),
-        Some(linear) => writeln!(
-            to,
-            "><ssc:LinearTransformation factor=\"{}\" offset=\"{}\"/></ssd:Connection>",
-            linear.factor, linear.offset
-        ),
-    }
-}
-
-fn write_unit(to: &mut String, unit: &Unit) -> std::fmt::Result {
-    write!(to, "    <ssc:Unit name=\"{}\"><ssc:BaseUnit", escape(&unit.name))?;
-    let base = unit.base.unwrap_or_default();
-    for (name, exponent) in base.exponents() {
-        if exponent != 0 {
-            write!(to, " {name}=\"{exponent}\"")?;
-        }
-    }
-    for (name, number, default) in [("factor", base.factor, 1.0), ("offset", base.offset, 0.0)] {
-        if number != default {
-            write!(to, " {name}=\"{number}\"")?;
-        }
-    }
-    writeln!(to, "/></ssc:Unit>")
+    let Some(step_s) = experiment.step_size else { return };
+    out.element("ssd:Annotations", |out| {
+        out.inline("ssc:Annotation", |out| {
+            out.shown("type", ANNOTATION);
+            out.element("heliotorque:Step", |out| {
+                out.shown("xmlns:heliotorque", "https://heliotorque/ssp");
+                out.shown("size", step_s);
+            });
+        });
+    });
 }

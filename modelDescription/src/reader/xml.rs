@@ -30,6 +30,16 @@ pub struct Start {
 }
 
 impl Start {
+    /// The name without its prefix.
+    pub fn local(&self) -> &str {
+        self.name.rsplit_once(':').map_or(self.name.as_str(), |(_, name)| name)
+    }
+
+    /// The value of an attribute.
+    pub fn attribute(&self, name: &str) -> Option<&str> {
+        self.attributes.iter().find(|(key, _)| key == name).map(|(_, value)| value.as_str())
+    }
+
     /// Takes the attributes out of the tag.
     pub(crate) fn fields(&mut self) -> Fields {
         Fields::new(&self.name, self.line, core::mem::take(&mut self.attributes))

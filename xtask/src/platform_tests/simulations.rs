@@ -1,10 +1,9 @@
 //! The simulations whose bits are compared between platforms.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::build::scratch;
-use crate::dist;
+use crate::{dist, paths};
 
 /// Inputs of a simulation.
 #[derive(Clone, Copy)]
@@ -92,7 +91,7 @@ impl Simulation {
             }
             Inputs::Rows(text) => {
                 let path = scratch("platforms")?.join("inputs.csv");
-                fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+                paths::write(&path, text)?;
                 options.push(("--inputs", Value::File(path)));
             }
         }

@@ -53,19 +53,18 @@ pub(crate) struct Sweep {
 impl Sweep {
     /// The request without the command line.
     pub(crate) fn request(&self) -> campaign::sweep::Sweep {
-        let Self { campaign, runs, workers, output, resume, fresh, dry_run, template, timeout, quiet } =
-            self.clone();
+        let it = self.clone();
         campaign::sweep::Sweep {
-            campaign,
-            runs,
-            workers,
-            output,
-            resume,
-            fresh,
-            dry_run,
-            template,
-            timeout,
-            quiet,
+            campaign: it.campaign,
+            runs: it.runs,
+            workers: it.workers,
+            output: it.output,
+            resume: it.resume,
+            fresh: it.fresh,
+            dry_run: it.dry_run,
+            template: it.template,
+            timeout: it.timeout,
+            quiet: it.quiet,
         }
     }
 }

@@ -6,7 +6,8 @@ use super::{
     surface::TO_SUN,
 };
 use crate::{
-    Camera, Finish, GREY, INK, Labels, NAME_SIZE, Pen, Pixel, Surface, TEXT, Vector, contains, unit,
+    Camera, Finish, GREY, INK, Labels, NAME_SIZE, Pen, Pixel, Surface, TEXT, Vector, camera::bounds,
+    contains, unit,
 };
 
 /// Direction of the picture's light, beside that of the viewer.
@@ -120,12 +121,8 @@ impl Pane<'_> {
             &format!("fill=\"{fill}\" stroke=\"{edge}\" stroke-width=\"{width}\" stroke-linejoin=\"round\""),
         );
         if surface.finish == Finish::Cells && self.camera.sees_front(surface) && outline.len() == 4 {
-            let lines: Vec<[Pixel; 2]> =
-                surface.cell_lines().into_iter().map(|line| line.map(|end| self.screen(end))).collect();
-            pen.lines(
-                lines.iter().map(|line| &line[..]),
-                "stroke=\"#c9d8f0\" stroke-opacity=\"0.5\" stroke-width=\"0.7\"",
-            );
+            let lines = surface.cell_lines().into_iter().map(|line| line.map(|end| self.screen(end)));
+            pen.lines(lines, "stroke=\"#c9d8f0\" stroke-opacity=\"0.5\" stroke-width=\"0.7\"");
         }
     }
 
@@ -154,9 +151,8 @@ impl Pane<'_> {
             last = Some(hidden);
         }
         for (runs, opacity) in runs.iter().zip(["", " stroke-opacity=\"0.35\""]) {
-            let ends: Vec<[Pixel; 2]> =
-                runs.iter().filter_map(|run| Some([*run.first()?, *run.last()?])).collect();
-            pen.lines(ends.iter().map(|run| &run[..]), &format!("{attributes}{opacity}"));
+            let ends = runs.iter().filter_map(|run| Some([*run.first()?, *run.last()?]));
+            pen.lines(ends, &format!("{attributes}{opacity}"));
         }
     }
 
@@ -186,7 +182,7 @@ impl Pane<'_> {
         let tip_m = from_m + 0.9 * self.reach_m.arrow_m * TO_SUN;
         let (from, tip) = (self.screen(from_m), self.screen(tip_m));
         if let Some((x, y)) = direction(from, tip).filter(|_| self.scene.has_sun) {
-            pen.lines([&[from, tip][..]], "stroke=\"#e69f00\" stroke-width=\"2\"");
+            pen.lines([[from, tip]], "stroke=\"#e69f00\" stroke-width=\"2\"");
             pen.arrow_head(from, tip, "#e69f00");
             let sun = (tip.0 + 13.0 * x, tip.1 + 13.0 * y);
             pen.sun(sun);
@@ -217,7 +213,7 @@ impl Pane<'_> {
         labels.keep_off(&ends.map(|end| self.screen(end)));
         let arc = self.arc(axis);
         if let [.., before, tip] = arc[..] {
-            pen.lines([&arc[..]], &stroke);
+            pen.lines([&arc], &stroke);
             pen.arrow_head(before, tip, ROTATION_COLOUR);
             labels.keep_off(&arc);
         }
@@ -325,9 +321,7 @@ fn rings(at: Pixel) -> impl Iterator<Item = Pixel> {
 /// Points of the rectangle around some, those near its middle first.
 fn grid(corners: &[Pixel]) -> Vec<Pixel> {
     const HALF: i32 = 8;
-    let low = corners.iter().fold((f64::INFINITY, f64::INFINITY), |a, b| (a.0.min(b.0), a.1.min(b.1)));
-    let high =
-        corners.iter().fold((f64::NEG_INFINITY, f64::NEG_INFINITY), |a, b| (a.0.max(b.0), a.1.max(b.1)));
+    let [low, high] = bounds(corners.iter().copied());
     if corners.is_empty() {
         return Vec::new();
     }
@@ -348,8 +342,10 @@ pub(super) fn scale_bar(pen: &mut Pen, at: Pixel, pixels_per_m: f64, most_px: f6
         [5.0, 2.0, 1.0].into_iter().map(|k| k * decade).find(|length| *length <= most_m).unwrap_or(decade);
     let end = (at.0 + length_m * pixels_per_m, at.1);
     let tick = |x: f64| [(x, at.1 - 4.0), (x, at.1 + 4.0)];
-    let lines: [&[Pixel]; 3] = [&[at, end], &tick(at.0), &tick(end.0)];
-    pen.lines(lines, &format!("class=\"scale\" stroke=\"{INK}\" stroke-width=\"1.3\""));
+    pen.lines(
+        [[at, end], tick(at.0), tick(end.0)],
+        &format!("class=\"scale\" stroke=\"{INK}\" stroke-width=\"1.3\""),
+    );
     let text = format!("{} m", terminal::short(length_m));
     pen.text((end.0 + 8.0, at.1 + 4.0), 12.0, "start", TEXT, &text);
 }

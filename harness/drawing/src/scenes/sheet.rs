@@ -5,7 +5,7 @@ use super::{
     parts::{Axis, Part},
     scene::Scene,
 };
-use crate::{BESIDE, Camera, Finish, HEADING, Pen, TEXT, Vector, width_px};
+use crate::{BESIDE, Camera, Finish, HEADING, Pen, TEXT, Vector, camera::bounds, width_px};
 
 /// A way to look at the spacecraft.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -165,11 +165,7 @@ struct Frame {
 
 impl Frame {
     fn new(camera: &Camera, points_m: &[Vector]) -> Self {
-        let corners: Vec<(f64, f64)> = points_m.iter().map(|point| camera.flat(*point)).collect();
-        let [low, high] = [f64::min, f64::max].map(|pick: fn(f64, f64) -> f64| {
-            let of = |get: fn(&(f64, f64)) -> f64| corners.iter().map(get).reduce(pick).unwrap_or_default();
-            (of(|corner| corner.0), of(|corner| corner.1))
-        });
+        let [low, high] = bounds(points_m.iter().map(|point| camera.flat(*point)));
         Self {
             size: (high.0 - low.0, high.1 - low.1),
             middle: ((low.0 + high.0) / 2.0, (low.1 + high.1) / 2.0),
@@ -241,7 +237,7 @@ impl Legend {
                 pen.center_of_mass((MARGIN + 12.0, y - 4.0));
             } else if has_sign {
                 pen.lines(
-                    [&[(MARGIN, y - 4.0), (MARGIN + 25.0, y - 4.0)][..]],
+                    [[(MARGIN, y - 4.0), (MARGIN + 25.0, y - 4.0)]],
                     "stroke=\"#8e44ad\" stroke-width=\"1.3\" stroke-dasharray=\"9 3 2 3\"",
                 );
             }

@@ -75,6 +75,21 @@ macro_rules! bind {
 
 model_description::functions!(bind);
 
+macro_rules! number {
+    ($($name:ident $symbol:ident $parameters:tt -> $result:ty: $access:expr;)*) => {
+        /// The number of every function in the record of calls.
+        #[allow(non_upper_case_globals, dead_code, reason = "the standard's own names, as `Functions` has them")]
+        pub(super) mod numbers {
+            use crate::call_record::number;
+            use model_description::call_table::Function;
+
+            $(pub(in crate::abi) const $symbol: u64 = number(Function::$name);)*
+        }
+    };
+}
+
+model_description::functions!(number);
+
 /// A loaded shared library; it stays loaded for the life of the process.
 pub struct Binary {
     pub(super) functions: Functions,
@@ -93,8 +108,10 @@ impl Binary {
         let _under_way = call_record::enter(call_record::LOADING);
         // SAFETY: loading runs the library's initialisers; an FMU is code its user chose to run.
         let opened = unsafe { open(path) };
-        let library =
-            opened.map_err(|error| Error::Library { path: path.to_owned(), chain: Error::chain(&error) })?;
+        let library = opened.map_err(|error| {
+            let what = format!("the shared library does not load: {}", Error::chain(&error));
+            Error::Unusable { path: path.to_owned(), what }
+        })?;
         let library: &'static Library = Box::leak(Box::new(library));
         // SAFETY: the names are the standard's, so the types are the standard's.
         let functions = unsafe { Functions::bind(library) };

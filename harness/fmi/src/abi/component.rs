@@ -13,7 +13,7 @@ use model_description::functions::{
 };
 
 use super::{
-    binary::Binary,
+    binary::{Binary, numbers},
     logger::{FixedLogger, MessageBuffer, log_message},
     states::{StateKey, States},
     text::text,
@@ -64,7 +64,7 @@ macro_rules! call {
     ($self:ident.$function:ident($($argument:expr),*)) => {
         match $self.binary.functions.$function {
             Some(function) => {
-                let _under_way = call_record::enter(const { call_record::number(stringify!($function)) });
+                let _under_way = call_record::enter(numbers::$function);
                 // SAFETY: the handle is alive until drop and the arguments' lengths were checked by the caller.
                 answered(unsafe { function($self.handle, $($argument),*) })
             }
@@ -73,9 +73,13 @@ macro_rules! call {
     };
 }
 
-/// Functions without arguments, and those that read and write numbers.
+/// Functions without arguments, and those that read and write numbers: values of variables, and derivatives of some order.
 macro_rules! plain {
-    (calls { $($name:ident $symbol:ident;)* } access { $($get:ident $get_symbol:ident $set:ident $set_symbol:ident: $type:ty;)* }) => {
+    (
+        calls { $($name:ident $symbol:ident;)* }
+        values { $($of_values:ident $values_symbol:ident($values:ty, $values_pointer:ident);)* }
+        derivatives { $($of_derivatives:ident $derivatives_symbol:ident($derivatives:ty, $pointer:ident);)* }
+    ) => {
         impl Component {
             $(
                 pub(crate) fn $name(&mut self) -> Answer {
@@ -83,14 +87,22 @@ macro_rules! plain {
                 }
             )*
             $(
-                pub(crate) fn $get(&mut self, references: &[u32], values: &mut [$type]) -> Answer {
+                pub(crate) fn $of_values(&mut self, references: &[u32], values: $values) -> Answer {
                     same_length(references.len(), values.len())?;
-                    call!(self.$get_symbol(references.as_ptr(), references.len(), values.as_mut_ptr()))
+                    call!(self.$values_symbol(references.as_ptr(), references.len(), values.$values_pointer()))
                 }
-
-                pub(crate) fn $set(&mut self, references: &[u32], values: &[$type]) -> Answer {
+            )*
+            $(
+                pub(crate) fn $of_derivatives(
+                    &mut self,
+                    references: &[u32],
+                    orders: &[i32],
+                    values: $derivatives,
+                ) -> Answer {
+                    same_length(references.len(), orders.len())?;
                     same_length(references.len(), values.len())?;
-                    call!(self.$set_symbol(references.as_ptr(), references.len(), values.as_ptr()))
+                    let (first, count) = (references.as_ptr(), references.len());
+                    call!(self.$derivatives_symbol(first, count, orders.as_ptr(), values.$pointer()))
                 }
             )*
         }
@@ -105,10 +117,17 @@ plain! {
         reset fmi2Reset;
         cancel_step fmi2CancelStep;
     }
-    access {
-        get_real fmi2GetReal set_real fmi2SetReal: f64;
-        get_integer fmi2GetInteger set_integer fmi2SetInteger: i32;
-        get_boolean fmi2GetBoolean set_boolean fmi2SetBoolean: i32;
+    values {
+        get_real fmi2GetReal(&mut [f64], as_mut_ptr);
+        get_integer fmi2GetInteger(&mut [i32], as_mut_ptr);
+        get_boolean fmi2GetBoolean(&mut [i32], as_mut_ptr);
+        set_real fmi2SetReal(&[f64], as_ptr);
+        set_integer fmi2SetInteger(&[i32], as_ptr);
+        set_boolean fmi2SetBoolean(&[i32], as_ptr);
+    }
+    derivatives {
+        set_real_input_derivatives fmi2SetRealInputDerivatives(&[f64], as_ptr);
+        get_real_output_derivatives fmi2GetRealOutputDerivatives(&mut [f64], as_mut_ptr);
     }
 }
 
@@ -136,7 +155,7 @@ impl Component {
             step_finished: None,
             component_environment: Arc::as_ptr(&buffer).cast_mut().cast(),
         }));
-        let under_way = call_record::enter(const { call_record::number("fmi2Instantiate") });
+        let under_way = call_record::enter(numbers::fmi2Instantiate);
         // SAFETY: all texts and the struct are valid during the call; the buffer outlives the instance.
         let handle = unsafe {
             function(
@@ -192,7 +211,7 @@ impl Component {
 
     pub(crate) fn do_step(&mut self, time: f64, step: f64, no_set_state_prior: bool) -> Answer {
         let Some(function) = self.binary.functions.fmi2DoStep else { return Err(Outcome::Missing) };
-        let _under_way = call_record::enter_with(const { call_record::number("fmi2DoStep") }, [time, step]);
+        let _under_way = call_record::enter_with(numbers::fmi2DoStep, [time, step]);
         // SAFETY: the handle is alive until drop.
         answered(unsafe { function(self.handle, time, step, c_int::from(no_set_state_prior)) })
     }
@@ -213,38 +232,6 @@ impl Component {
         let texts = c_texts(values.iter().copied())?;
         let pointers: Vec<_> = texts.iter().map(|text| text.as_ptr()).collect();
         call!(self.fmi2SetString(references.as_ptr(), references.len(), pointers.as_ptr()))
-    }
-
-    pub(crate) fn set_real_input_derivatives(
-        &mut self,
-        references: &[u32],
-        orders: &[i32],
-        values: &[f64],
-    ) -> Answer {
-        same_length(references.len(), orders.len())?;
-        same_length(references.len(), values.len())?;
-        call!(self.fmi2SetRealInputDerivatives(
-            references.as_ptr(),
-            references.len(),
-            orders.as_ptr(),
-            values.as_ptr()
-        ))
-    }
-
-    pub(crate) fn get_real_output_derivatives(
-        &mut self,
-        references: &[u32],
-        orders: &[i32],
-        values: &mut [f64],
-    ) -> Answer {
-        same_length(references.len(), orders.len())?;
-        same_length(references.len(), values.len())?;
-        call!(self.fmi2GetRealOutputDerivatives(
-            references.as_ptr(),
-            references.len(),
-            orders.as_ptr(),
-            values.as_mut_ptr()
-        ))
     }
 
     pub(crate) fn get_directional_derivative(
@@ -352,10 +339,19 @@ impl Component {
 
     /// `fmi2FreeInstance(NULL)`, a no-op by the standard.
     pub(crate) fn free_nothing(&self) {
+        // SAFETY: NULL is allowed.
+        unsafe { self.free_instance(ptr::null_mut()) };
+    }
+
+    /// `fmi2FreeInstance`.
+    ///
+    /// # Safety
+    /// The handle is NULL, or an instance that is never used again.
+    unsafe fn free_instance(&self, handle: types::Component) {
         if let Some(function) = self.binary.functions.fmi2FreeInstance {
-            let _under_way = call_record::enter(const { call_record::number("fmi2FreeInstance") });
-            // SAFETY: NULL is allowed.
-            unsafe { function(ptr::null_mut()) };
+            let _under_way = call_record::enter(numbers::fmi2FreeInstance);
+            // SAFETY: the caller's promise.
+            unsafe { function(handle) };
         }
     }
 }
@@ -366,11 +362,8 @@ impl Drop for Component {
             for mut state in self.states.held() {
                 let _ = call!(self.fmi2FreeFMUstate(&raw mut state));
             }
-            if let Some(function) = self.binary.functions.fmi2FreeInstance {
-                let _under_way = call_record::enter(const { call_record::number("fmi2FreeInstance") });
-                // SAFETY: the handle is alive and never used again.
-                unsafe { function(self.handle) };
-            }
+            // SAFETY: the handle is alive and never used again.
+            unsafe { self.free_instance(self.handle) };
         }
         // SAFETY: made by Box::into_raw, and its fields have no destructors.
         drop(unsafe { Box::from_raw(self.callbacks.cast::<std::mem::MaybeUninit<CallbackFunctions>>()) });

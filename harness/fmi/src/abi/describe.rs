@@ -47,19 +47,25 @@ unsafe extern "C" fn receive(context: *mut c_void, kind: c_int, text: *const c_c
     }
 }
 
-/// Returns the library's answer and all that it sent.
-fn collected(call: impl FnOnce(*mut c_void) -> c_int) -> (c_int, Vec<(c_int, String)>) {
-    let mut received = Vec::new();
-    let code = call((&raw mut received).cast());
-    (code, received)
-}
-
-fn c_text(text: Option<&str>) -> Result<Option<CString>, String> {
-    text.map(CString::new).transpose().map_err(|_| "a text contains a zero byte".to_owned())
-}
-
-fn pointer(text: &Option<CString>) -> *const c_char {
-    text.as_ref().map_or(ptr::null(), |text| text.as_ptr())
+/// Returns all that the library sent to a call of this symbol with these texts, or why it refuses them. `call` is given pointers to the
+/// texts, and the context for [`receive`].
+fn received<const N: usize>(
+    symbol: &str,
+    texts: [Option<&str>; N],
+    call: impl FnOnce([*const c_char; N], *mut c_void) -> c_int,
+) -> Result<Vec<(c_int, String)>, String> {
+    if texts.iter().flatten().any(|text| text.contains('\0')) {
+        return Err("a text contains a zero byte".to_owned());
+    }
+    let texts = texts.map(|text| text.and_then(|text| CString::new(text).ok()));
+    let pointers = texts.each_ref().map(|text| text.as_ref().map_or(ptr::null(), |text| text.as_ptr()));
+    let mut received: Vec<(c_int, String)> = Vec::new();
+    let code = call(pointers, (&raw mut received).cast());
+    match received.iter().find(|(what, _)| *what == kind::ERROR) {
+        Some((_, problem)) => Err(problem.clone()),
+        None if code != 0 => Err(format!("{symbol} answered {code} without a reason")),
+        None => Ok(received),
+    }
 }
 
 impl Binary {
@@ -96,30 +102,13 @@ impl Binary {
             .map_err(|_| {
                 format!("{schedule_file}: the library of the template is older than this program")
             })?;
-        let (model, file, setup) = (c_text(Some(model))?, c_text(file)?, c_text(setup)?);
-        let schedule = c_text(Some(schedule))?;
-        let (schedule_file, text) = (c_text(Some(schedule_file))?, c_text(Some(text))?);
-        let (code, received) = collected(|context| {
+        let texts = [Some(model), file, setup, Some(schedule), Some(schedule_file), Some(text)];
+        let call = |[model, file, setup, schedule, schedule_file, text]: [_; 6], context| {
             let _under_way = call_record::enter(call_record::CHECKING);
             // SAFETY: texts and list are valid during the call, which is the only time `receive` is called.
-            unsafe {
-                function(
-                    pointer(&model),
-                    pointer(&file),
-                    pointer(&setup),
-                    pointer(&schedule),
-                    pointer(&schedule_file),
-                    pointer(&text),
-                    context,
-                    Some(receive),
-                )
-            }
-        });
-        match received.into_iter().find(|(what, _)| *what == kind::ERROR) {
-            None if code == 0 => Ok(()),
-            None => Err(format!("fmi_export_check_schedule_file answered {code} without a reason")),
-            Some((_, problem)) => Err(problem),
-        }
+            unsafe { function(model, file, setup, schedule, schedule_file, text, context, Some(receive)) }
+        };
+        received(CHECK_SCHEDULE_SYMBOL, texts, call).map(drop)
     }
 
     fn call_describe(
@@ -132,18 +121,15 @@ impl Binary {
         let function = unsafe { self.library.get::<Describe>(SYMBOL.as_bytes()) }.map_err(|_| {
             "this is no heliotorque library: it does not export fmi_export_describe".to_owned()
         })?;
-        let (model, file, setup) = (c_text(model)?, c_text(file)?, c_text(setup)?);
-        let (code, received) = collected(|context| {
+        let call = |[model, file, setup]: [_; 3], context| {
             let _under_way = call_record::enter(call_record::DESCRIBING);
             // SAFETY: texts and list are valid during the call, which is the only time `receive` is called.
-            unsafe { function(pointer(&model), pointer(&file), pointer(&setup), context, Some(receive)) }
-        });
+            unsafe { function(model, file, setup, context, Some(receive)) }
+        };
         let mut models: Vec<Described> = Vec::new();
-        let mut problem = None;
-        for (what, text) in received {
+        for (what, text) in received(SYMBOL, [model, file, setup], call)? {
             match (what, models.last_mut()) {
                 (kind::XML, Some(model)) => model.xml = text,
-                (kind::ERROR, _) => problem = Some(text),
                 (kind::SETUP_TEXT, Some(model)) => model.default_setup = text,
                 (kind::MODEL, _) => models.push(Described { model: text, ..Described::default() }),
                 (kind::REFERENCE_INPUTS, Some(model)) => model.reference_inputs = text,
@@ -160,10 +146,6 @@ impl Binary {
                 _ => {}
             }
         }
-        match problem {
-            None if code == 0 => Ok(models),
-            None => Err(format!("fmi_export_describe answered {code} without a reason")),
-            Some(problem) => Err(problem),
-        }
+        Ok(models)
     }
 }

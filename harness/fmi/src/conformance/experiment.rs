@@ -63,10 +63,11 @@ pub(crate) fn outputs(instance: &mut Instance) -> Result<Bits, Error> {
     Ok(bits)
 }
 
-/// Brings a fresh instance to `state`; `None` where the FMU cannot be brought there.
-pub(crate) fn at(fmu: &Fmu, options: &InstanceOptions, state: State) -> Result<Option<Instance>, Error> {
+/// A fresh instance in `state`, to which every FMU can be brought.
+pub(crate) fn at(fmu: &Fmu, options: &InstanceOptions, state: State) -> Result<Instance, Error> {
     let mut instance = Instance::new(fmu, "probe", options)?;
-    Ok(advance(&mut instance, state)?.then_some(instance))
+    advance(&mut instance, state)?;
+    Ok(instance)
 }
 
 /// Brings a freshly instantiated or reset instance to `state`; false where the FMU cannot be brought there.
@@ -93,9 +94,7 @@ pub(crate) fn advance(instance: &mut Instance, state: State) -> Result<bool, Err
 
 /// A ready instance between steps.
 pub(crate) fn ready(fmu: &Fmu, options: &InstanceOptions) -> Result<Instance, Error> {
-    let mut instance = Instance::new(fmu, "probe", options)?;
-    advance(&mut instance, State::StepComplete)?;
-    Ok(instance)
+    at(fmu, options, State::StepComplete)
 }
 
 /// Runs steps `from..to` of the default experiment.

@@ -64,9 +64,4 @@ impl Finding {
     pub fn bad(text: impl Into<String>) -> Self {
         Self::new(Verdict::Bad, text)
     }
-
-    /// Good if `right`, else bad.
-    pub fn expect(right: bool, text: impl Into<String>) -> Self {
-        Self::new(if right { Verdict::Good } else { Verdict::Bad }, text)
-    }
 }

@@ -5,20 +5,21 @@
 
 mod experiment;
 mod finding;
+mod findings;
 mod probe;
 mod probes;
 mod report;
 mod static_checks;
-mod verdict;
 
-use crate::{Error, Fmu};
+use crate::Fmu;
 
 pub use finding::{Finding, Verdict};
-pub use probe::{Findings, Probe, Trial};
+pub use probe::{Probe, Trial};
 pub use probes::state::resets;
 pub use report::{Listed, Report, Section};
 pub use static_checks::{archive, description};
 
+use findings::{Findings, Outcome};
 use probes::{calls, host, library, reference as reference_flight, state, stepping, times, values};
 
 /// Every trial of every probe.
@@ -45,17 +46,15 @@ pub const PROBES: &[Probe] = &[
     probe("instances", "many instances come and go", host::instances),
 ];
 
-const fn probe(name: &'static str, title: &'static str, run: fn(&Fmu) -> Findings) -> Probe {
+const fn probe(name: &'static str, title: &'static str, run: fn(&mut Findings<'_>) -> Outcome) -> Probe {
     Probe { name, title, run }
 }
 
 /// Runs the probe or trial of this name; `None` where there is none. An FMU that fails in it is a finding.
 pub fn run(fmu: &Fmu, name: &str) -> Option<Vec<Finding>> {
-    let findings = if let Some(probe) = PROBES.iter().find(|probe| probe.name == name) {
-        (probe.run)(fmu)
-    } else {
-        let trial = trials().find(|trial| trial.name() == name)?;
-        (trial.run)(fmu, trial)
-    };
-    Some(findings.unwrap_or_else(|error| vec![Finding::bad(Error::chain(&error))]))
+    if let Some(probe) = PROBES.iter().find(|probe| probe.name == name) {
+        return Some(Findings::gathered(fmu, probe.run));
+    }
+    let trial = trials().find(|trial| trial.name() == name)?;
+    Some(Findings::gathered(fmu, |findings| (trial.run)(findings, trial)))
 }

@@ -1,11 +1,6 @@
 //! Probes of an FMU.
 
-use crate::{Error, Fmu};
-
-use crate::conformance::Finding;
-
-/// Findings of a probe; an error is a finding too.
-pub type Findings = Result<Vec<Finding>, Error>;
+use crate::conformance::findings::{Findings, Outcome};
 
 /// One probe.
 pub struct Probe {
@@ -14,7 +9,7 @@ pub struct Probe {
     /// Subject of its test.
     pub title: &'static str,
     /// Runs it, in a process of its own.
-    pub run: fn(&Fmu) -> Findings,
+    pub(crate) run: fn(&mut Findings<'_>) -> Outcome,
 }
 
 /// One call that even a good FMU may not come back from, tried in a process of its own.
@@ -30,7 +25,7 @@ pub struct Trial {
     /// Whether the standard can be read as asking nothing here: then what goes wrong is worth a note.
     pub disputed: bool,
     /// Runs it.
-    pub run: fn(&Fmu, &Trial) -> Findings,
+    pub(crate) run: fn(&mut Findings<'_>, &Trial) -> Outcome,
 }
 
 impl Trial {

@@ -94,11 +94,7 @@ fn source_files(fmu: &Fmu, findings: &mut Vec<Finding>) {
 }
 
 fn top_level(fmu: &Fmu, findings: &mut Vec<Finding>) {
-    let Ok(entries) = std::fs::read_dir(fmu.folder()) else { return };
-    let mut names: Vec<String> =
-        entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
-    names.sort();
-    for name in names.iter().filter(|name| !KNOWN.contains(&name.as_str())) {
+    for name in files::names_in(fmu.folder()).iter().filter(|name| !KNOWN.contains(&name.as_str())) {
         findings.push(Finding::note(format!("{name} is none of FMI 2.0.5's own files and folders (2.3)")));
     }
 }

@@ -5,6 +5,8 @@
 
 use std::collections::BTreeMap;
 
+use model_description::names;
+
 /// A cell of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
@@ -134,7 +136,7 @@ const KEPT: [&str; 12] = [
 fn vector_of(name: &str) -> (&str, &str) {
     let kept = KEPT.into_iter().find(|kept| name.ends_with(kept)).unwrap_or_default();
     let name = name.strip_suffix(kept).unwrap_or(name);
-    (name.strip_suffix(']').and_then(|name| name.rsplit_once('[')).map_or(name, |(vector, _)| vector), kept)
+    (names::element(name).map_or(name, |(vector, _)| vector), kept)
 }
 
 #[cfg(test)]

@@ -50,7 +50,7 @@ impl Manifest {
         let in_text = |error: model_description::ReadError| error.to_string();
         let mut xml = Xml::new(bytes).map_err(in_text)?;
         let root = xml.root().map_err(in_text)?;
-        if local(&root) != "fmiReferences" {
+        if root.local() != "fmiReferences" {
             return Err(format!(
                 "line {}: found <{}> at the root, allowed: <fmiReferences>",
                 root.line, root.name
@@ -58,7 +58,7 @@ impl Manifest {
         }
         let mut manifest = Self::default();
         while let Some(child) = xml.child(&root).map_err(in_text)? {
-            if local(&child) == "Related" {
+            if child.local() == "Related" {
                 manifest.related.push(related(&mut xml, &child)?);
             } else {
                 xml.skip(&child).map_err(in_text)?;
@@ -101,8 +101,9 @@ impl Manifest {
 }
 
 fn related(xml: &mut Xml<'_>, start: &Start) -> Result<Related, String> {
-    let text = |name: &str| attribute(start, name).unwrap_or_default().to_owned();
-    let source = attribute(start, "source")
+    let text = |name: &str| start.attribute(name).unwrap_or_default().to_owned();
+    let source = start
+        .attribute("source")
         .ok_or_else(|| format!("line {}: <Related> has no source", start.line))?
         .to_owned();
     Ok(Related {
@@ -118,12 +119,12 @@ fn related(xml: &mut Xml<'_>, start: &Start) -> Result<Related, String> {
 fn flight(xml: &mut Xml<'_>, start: &Start) -> Result<Option<ReferenceSimulation>, String> {
     let mut found = None;
     while let Some(child) = xml.child(start).map_err(|error| error.to_string())? {
-        let is_foreign = local(&child) == "Annotation" && attribute(&child, "type") != Some(ANNOTATION);
+        let is_foreign = child.local() == "Annotation" && child.attribute("type") != Some(ANNOTATION);
         if is_foreign {
             xml.skip(&child).map_err(|error| error.to_string())?;
             continue;
         }
-        if local(&child) == "flight" {
+        if child.local() == "flight" {
             found = Some(terms(&child)?);
         }
         found = flight(xml, &child)?.or(found);
@@ -132,19 +133,11 @@ fn flight(xml: &mut Xml<'_>, start: &Start) -> Result<Option<ReferenceSimulation
 }
 
 fn terms(start: &Start) -> Result<ReferenceSimulation, String> {
-    let text = attribute(start, "tolerance").unwrap_or_default();
+    let text = start.attribute("tolerance").unwrap_or_default();
     let tolerance = text.parse().ok().filter(|it: &f64| it.is_finite() && *it >= 0.0).ok_or_else(|| {
         format!("line {}: found tolerance {text:?}, allowed: a number from 0 up", start.line)
     })?;
-    Ok(ReferenceSimulation { tolerance, inputs: attribute(start, "inputs").map(str::to_owned) })
-}
-
-fn attribute<'a>(start: &'a Start, name: &str) -> Option<&'a str> {
-    start.attributes.iter().find(|(key, _)| key == name).map(|(_, value)| value.as_str())
-}
-
-fn local(start: &Start) -> &str {
-    start.name.rsplit(':').next().unwrap_or_default()
+    Ok(ReferenceSimulation { tolerance, inputs: start.attribute("inputs").map(str::to_owned) })
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ mod wheels;
 
 use fmi::{Error, Fmu, Instance, Times, Value};
 use inputs::variables::assigned;
-use model_description::{Causality, ScalarVariable};
+use model_description::{Causality, ScalarVariable, names};
 
 use crate::instance::started;
 
@@ -66,9 +66,7 @@ fn others(fmu: &Fmu, instance: &mut Instance) -> Result<Option<String>, Error> {
 
 /// `a[2]` belongs to the row `a`, `a[3,7]` to the row `a[3]`.
 fn row_name(name: &str) -> String {
-    let Some((base, index)) = name.strip_suffix(']').and_then(|rest| rest.rsplit_once('[')) else {
-        return name.to_owned();
-    };
+    let Some((base, index)) = names::element(name) else { return name.to_owned() };
     match index.rsplit_once(',') {
         Some((rows, _)) => format!("{base}[{rows}]"),
         None => base.to_owned(),

@@ -4,15 +4,18 @@ use crate::{Error, Fmu, Instance, State as Saved, Status};
 use model_description::call_table::{Access, Condition, Function, State, allowed, leniency};
 use model_description::{BaseType, Causality, ScalarVariable, value::start};
 
-use crate::conformance::{Finding, experiment, probe::Findings};
+use crate::conformance::{
+    Finding, experiment,
+    findings::{Findings, Outcome},
+};
 
 /// The states an FMU can be brought to by lawful calls, and the error state.
 const STATES: [State; 5] =
     [State::Instantiated, State::InitializationMode, State::StepComplete, State::Terminated, State::Error];
 
 /// Calls each function in each state, every time in a fresh instance.
-pub(crate) fn probe(fmu: &Fmu) -> Findings {
-    let mut findings = Vec::new();
+pub(crate) fn probe(findings: &mut Findings<'_>) -> Outcome {
+    let fmu = findings.fmu;
     let (mut as_reported, mut skipped) = (0, 0);
     for state in STATES {
         for &function in Function::ALL {
@@ -27,10 +30,10 @@ pub(crate) fn probe(fmu: &Fmu) -> Findings {
             }
         }
     }
-    findings.push(Finding::good(format!(
+    findings.good(format!(
         "{as_reported} calls answered as the table requires, {skipped} not possible with this FMU"
-    )));
-    Ok(findings)
+    ));
+    Ok(())
 }
 
 /// One call to make.

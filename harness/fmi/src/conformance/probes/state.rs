@@ -4,17 +4,15 @@ use crate::{Error, Fmu, Instance, InstanceOptions};
 use model_description::call_table::State;
 
 use crate::conformance::{
-    Finding,
     experiment::{self, Bits, STEPS},
-    probe::Findings,
-    verdict::refused,
+    findings::{Findings, Outcome},
 };
 
 /// Saves between two steps and compares what follows.
-pub(crate) fn probe(fmu: &Fmu) -> Findings {
+pub(crate) fn probe(findings: &mut Findings<'_>) -> Outcome {
+    let fmu = findings.fmu;
     let flags = fmu.co_simulation()?;
     let half = STEPS / 2;
-    let mut findings = Vec::new();
 
     let mut fresh = experiment::ready(fmu, &experiment::strict())?;
     let at_start = experiment::outputs(&mut fresh)?;
@@ -22,54 +20,48 @@ pub(crate) fn probe(fmu: &Fmu) -> Findings {
     let at_end = experiment::outputs(&mut fresh)?;
 
     let again = experiment::short_simulation(fmu, &experiment::strict())?;
-    findings.push(Finding::expect(again == at_end, "a second simulation gives the same bits"));
+    findings.expect(again == at_end, "a second simulation gives the same bits");
 
     let same = after_reset(&mut fresh)? == [at_start, at_end.clone()];
-    findings.push(Finding::expect(same, "after fmi2Reset it runs as a fresh instance, to the bit"));
+    findings.expect(same, "after fmi2Reset it runs as a fresh instance, to the bit");
 
     if !flags.can_get_and_set_fmu_state {
-        findings.push(Finding::skipped("saving and restoring: not claimed"));
-        return Ok(findings);
+        findings.skipped("saving and restoring: not claimed");
+        return Ok(());
     }
     let mut instance = experiment::ready(fmu, &experiment::strict())?;
     experiment::simulate(&mut instance, 0, half)?;
     let at_half = experiment::outputs(&mut instance)?;
     let saved = instance.save_state()?;
-    findings.push(Finding::expect(experiment::outputs(&mut instance)? == at_half, "saving changes nothing"));
+    findings.expect(experiment::outputs(&mut instance)? == at_half, "saving changes nothing");
     experiment::simulate(&mut instance, half, STEPS)?;
     let first = experiment::outputs(&mut instance)?;
     instance.restore_state(saved)?;
-    findings.push(Finding::expect(
-        experiment::outputs(&mut instance)? == at_half,
-        "a restored state has the outputs it was saved with",
-    ));
+    let restored = experiment::outputs(&mut instance)?;
+    findings.expect(restored == at_half, "a restored state has the outputs it was saved with");
     experiment::simulate(&mut instance, half, STEPS)?;
     let second = experiment::outputs(&mut instance)?;
-    findings.push(Finding::expect(first == second, "a restored state runs on as the first time, to the bit"));
-    findings.push(Finding::expect(
-        first == at_end,
-        "a simulation with a save in it equals one without, to the bit",
-    ));
+    findings.expect(first == second, "a restored state runs on as the first time, to the bit");
+    findings.expect(first == at_end, "a simulation with a save in it equals one without, to the bit");
 
     if flags.can_serialize_fmu_state {
         let bytes = instance.serialize_state(saved)?;
-        findings.push(Finding::good(format!("a state serialises to {} bytes", bytes.len())));
+        findings.good(format!("a state serialises to {} bytes", bytes.len()));
         let mut other = experiment::ready(fmu, &experiment::strict())?;
         let state = other.deserialize_state(&bytes)?;
         other.restore_state(state)?;
         experiment::simulate(&mut other, half, STEPS)?;
         let there = experiment::outputs(&mut other)?;
-        findings
-            .push(Finding::expect(there == at_end, "another instance runs on from the bytes, to the bit"));
+        findings.expect(there == at_end, "another instance runs on from the bytes, to the bit");
         let back = other.serialize_state(state)?;
-        findings.push(Finding::expect(back == bytes, "the bytes read and written again are the same"));
-        damaged(fmu, &bytes, &mut findings)?;
+        findings.expect(back == bytes, "the bytes read and written again are the same");
+        damaged(findings, &bytes)?;
     } else {
-        findings.push(Finding::skipped("serialising: not claimed"));
+        findings.skipped("serialising: not claimed");
     }
     instance.free_state(saved)?;
-    findings.push(Finding::good("frees its state"));
-    Ok(findings)
+    findings.good("frees its state");
+    Ok(())
 }
 
 /// Whether an instance that was reset runs as a fresh one, to the bit, over a few steps of the default experiment.
@@ -94,7 +86,7 @@ fn after_reset(instance: &mut Instance) -> Result<[Bits; 2], Error> {
 }
 
 /// Bytes that were cut or changed.
-fn damaged(fmu: &Fmu, bytes: &[u8], findings: &mut Vec<Finding>) -> Result<(), crate::Error> {
+fn damaged(findings: &mut Findings<'_>, bytes: &[u8]) -> Outcome {
     let mut damaged = bytes.to_vec();
     if let Some(middle) = damaged.get_mut(bytes.len() / 2) {
         *middle ^= 0x10;
@@ -102,10 +94,8 @@ fn damaged(fmu: &Fmu, bytes: &[u8], findings: &mut Vec<Finding>) -> Result<(), c
     let cases: [(&str, &[u8]); 3] =
         [("no bytes", &[]), ("half the bytes", &bytes[..bytes.len() / 2]), ("a flipped bit", &damaged)];
     for (what, bytes) in cases {
-        let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
-        let outcome = instance.deserialize_state(bytes).map(|_| ());
         let what = format!("a serialised state of {what}");
-        findings.push(refused(&what, outcome));
+        findings.try_refused(&what, |instance| instance.deserialize_state(bytes).map(drop))?;
     }
     Ok(())
 }

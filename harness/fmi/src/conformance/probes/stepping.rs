@@ -3,45 +3,44 @@
 use crate::{Fmu, Options, Status};
 use model_description::{ScalarVariable, VariableKind, value::items};
 
-use crate::conformance::{Finding, experiment, probe::Findings};
+use crate::conformance::{
+    experiment,
+    findings::{Findings, Outcome},
+};
 
 /// Runs the default experiment, or a hundredth of it if it is long, under the strict call checker.
-pub(crate) fn simulation(fmu: &Fmu) -> Findings {
+pub(crate) fn simulation(findings: &mut Findings<'_>) -> Outcome {
     /// Steps enough to see a model at work, few enough to wait for.
     const LONGEST: u64 = 2000;
+    let fmu = findings.fmu;
     let times = experiment::times(fmu)?;
     let stop_s = times.point_s(times.steps().min(LONGEST));
     let options = Options { stop_s: Some(stop_s), instance: experiment::strict(), ..Options::default() };
-    let simulation = match crate::simulate(fmu, options) {
-        Ok(simulation) => simulation,
-        Err(stopped) => return Err(stopped.error),
-    };
+    let simulation = crate::simulate(fmu, options).map_err(|stopped| stopped.error)?;
     let recording = simulation.recording;
     let steps = recording.times_s.len().saturating_sub(1);
-    let mut findings = vec![Finding::good(format!("{steps} steps of {} s", times.step_s))];
+    findings.good(format!("{steps} steps of {} s", times.step_s));
     for (name, column) in recording.names.iter().zip(&recording.columns) {
         let Some(variable) = fmu.find(name) else { continue };
         let values = column.numbers();
         if matches!(column, crate::Column::Real(_))
             && let Some(row) = values.iter().position(|value| !value.is_finite())
         {
-            findings.push(Finding::bad(format!("{name} is {} at {} s", values[row], recording.times_s[row])));
+            findings.bad(format!("{name} is {} at {} s", values[row], recording.times_s[row]));
         }
         let (low, high) = limits(fmu, variable);
         if let Some(row) = values.iter().position(|value| *value < low || *value > high) {
             let at_s = recording.times_s[row];
-            findings.push(Finding::note(format!(
-                "{name} is {} at {at_s} s, outside its limits {low} to {high}",
-                values[row]
-            )));
+            let value = values[row];
+            findings.note(format!("{name} is {value} at {at_s} s, outside its limits {low} to {high}"));
         }
     }
     let troubled =
         simulation.messages.iter().find(|message| !matches!(message.status, Status::Ok | Status::Warning));
     if let Some(message) = troubled {
-        findings.push(Finding::note(format!("logged on the way: {message}")));
+        findings.note(format!("logged on the way: {message}"));
     }
-    Ok(findings)
+    Ok(())
 }
 
 fn limits(fmu: &Fmu, variable: &ScalarVariable) -> (f64, f64) {

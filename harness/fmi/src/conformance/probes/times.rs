@@ -1,32 +1,35 @@
 //! Times that test how an FMU compares times: those masters really give, and wrong ones.
 
-use crate::{Error, Fmu, Times};
+use crate::{Error, Times};
 use model_description::call_table::State;
 
 use crate::conformance::{
-    Finding,
     experiment::{self, STEPS},
-    probe::{Findings, Trial},
-    verdict::{refused, verdict},
+    findings::{Findings, Outcome},
+    probe::Trial,
 };
 
 /// Wrong times: an FMU whose solver continues until it has passed the end of a step may never come back.
 pub(crate) const TRIALS: &[Trial] = &[
-    wrong("a step from a time that is not its own", false, |fmu, it| {
-        step(fmu, it, |times| (times.start_s + 0.5 * times.step_s, times.step_s))
+    wrong("a step from a time that is not its own", false, |findings, it| {
+        step(findings, it, |times| (times.start_s + 0.5 * times.step_s, times.step_s))
     }),
-    wrong("a step from before its own time", false, |fmu, it| {
-        step(fmu, it, |times| (times.start_s - times.step_s, times.step_s))
+    wrong("a step from before its own time", false, |findings, it| {
+        step(findings, it, |times| (times.start_s - times.step_s, times.step_s))
     }),
-    wrong("a step of no length", false, |fmu, it| step(fmu, it, |times| (times.start_s, 0.0))),
-    wrong("a step backwards", false, |fmu, it| step(fmu, it, |times| (times.start_s, -times.step_s))),
-    wrong("a step past the stop time it was given (2.1.6)", false, |fmu, it| {
-        step(fmu, it, |times| (times.start_s, 1.5 * (times.stop_s - times.start_s)))
+    wrong("a step of no length", false, |findings, it| step(findings, it, |times| (times.start_s, 0.0))),
+    wrong("a step backwards", false, |findings, it| {
+        step(findings, it, |times| (times.start_s, -times.step_s))
     }),
-    wrong("a step of NaN", true, |fmu, it| step(fmu, it, |times| (times.start_s, f64::NAN))),
-    wrong("an infinite step", true, |fmu, it| step(fmu, it, |times| (times.start_s, f64::INFINITY))),
-    wrong("a step from an infinite time", true, |fmu, it| {
-        step(fmu, it, |times| (f64::INFINITY, times.step_s))
+    wrong("a step past the stop time it was given (2.1.6)", false, |findings, it| {
+        step(findings, it, |times| (times.start_s, 1.5 * (times.stop_s - times.start_s)))
+    }),
+    wrong("a step of NaN", true, |findings, it| step(findings, it, |times| (times.start_s, f64::NAN))),
+    wrong("an infinite step", true, |findings, it| {
+        step(findings, it, |times| (times.start_s, f64::INFINITY))
+    }),
+    wrong("a step from an infinite time", true, |findings, it| {
+        step(findings, it, |times| (f64::INFINITY, times.step_s))
     }),
     Trial {
         probe: "times",
@@ -38,31 +41,29 @@ pub(crate) const TRIALS: &[Trial] = &[
     },
 ];
 
-const fn wrong(what: &'static str, senseless: bool, run: fn(&Fmu, &Trial) -> Findings) -> Trial {
+const fn wrong(what: &'static str, senseless: bool, run: fn(&mut Findings<'_>, &Trial) -> Outcome) -> Trial {
     Trial { probe: "times", call: "fmi2DoStep", what, senseless, disputed: false, run }
 }
 
-fn step(fmu: &Fmu, trial: &Trial, times: impl Fn(&Times) -> (f64, f64)) -> Findings {
-    let (time_s, step_s) = times(&experiment::times(fmu)?);
-    let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
-    Ok(vec![refused(trial.what, instance.do_step(time_s, step_s, false))])
+fn step(findings: &mut Findings<'_>, trial: &Trial, times: impl Fn(&Times) -> (f64, f64)) -> Outcome {
+    let (time_s, step_s) = times(&experiment::times(findings.fmu)?);
+    findings.try_refused(trial.what, |instance| instance.do_step(time_s, step_s, false))
 }
 
-fn start_at_nan(fmu: &Fmu, trial: &Trial) -> Findings {
-    let Some(mut instance) = experiment::at(fmu, &experiment::unchecked(), State::Instantiated)? else {
-        return Ok(Vec::new());
-    };
+fn start_at_nan(findings: &mut Findings<'_>, trial: &Trial) -> Outcome {
+    let mut instance = experiment::at(findings.fmu, &experiment::unchecked(), State::Instantiated)?;
     let outcome = instance.setup_experiment(None, f64::NAN, None).and_then(|()| {
         instance.enter_initialization_mode()?;
         instance.exit_initialization_mode()
     });
-    Ok(vec![refused(trial.what, outcome)])
+    findings.refused(trial.what, outcome);
+    Ok(())
 }
 
 /// Times as masters really give them, and times that are wrong.
-pub(crate) fn probe(fmu: &Fmu) -> Findings {
+pub(crate) fn probe(findings: &mut Findings<'_>) -> Outcome {
+    let fmu = findings.fmu;
     let times = experiment::times(fmu)?;
-    let mut findings = Vec::new();
     let variable_steps = fmu.co_simulation()?.can_handle_variable_communication_step_size;
 
     // A master that adds up its steps drifts by rounding.
@@ -76,7 +77,7 @@ pub(crate) fn probe(fmu: &Fmu) -> Findings {
         time_s += step_s;
         Ok::<(), Error>(())
     });
-    findings.push(verdict("accepts communication points that carry the rounding of a sum", outcome));
+    findings.done("accepts communication points that carry the rounding of a sum", outcome);
 
     let mut instance = experiment::ready(fmu, &experiment::strict())?;
     let outcome = (0..STEPS.min(times.steps() - 1)).try_for_each(|k| {
@@ -89,7 +90,7 @@ pub(crate) fn probe(fmu: &Fmu) -> Findings {
         };
         instance.do_step(time_s, times.step_s, false)
     });
-    findings.push(verdict("accepts communication points that are off in the last place", outcome));
+    findings.done("accepts communication points that are off in the last place", outcome);
 
     if variable_steps {
         let mut instance = experiment::ready(fmu, &experiment::strict())?;
@@ -102,10 +103,9 @@ pub(crate) fn probe(fmu: &Fmu) -> Findings {
             }
             Ok::<(), Error>(())
         });
-        findings.push(verdict("accepts steps of changing size", outcome));
+        findings.done("accepts steps of changing size", outcome);
     } else {
-        findings.push(Finding::skipped("steps of changing size: it does not claim to take them"));
+        findings.skipped("steps of changing size: it does not claim to take them");
     }
-
-    Ok(findings)
+    Ok(())
 }

@@ -1,25 +1,23 @@
 //! Variables: start values, limits, references, and derivatives.
 
-use crate::{Fmu, Instance, Status, Value};
+use crate::{Instance, Status, Value};
 use model_description::call_table::{Condition, State};
 use model_description::{BaseType, Causality, Initial, Variability, VariableKind, rules, value::start};
 
 use crate::conformance::{
-    Finding, experiment,
-    probe::Findings,
-    verdict::{refused, same, verdict},
+    experiment,
+    findings::{Findings, Outcome},
 };
 
 /// Start values read back, limits are kept, unknown references refused.
-pub(crate) fn probe(fmu: &Fmu) -> Findings {
-    let mut findings = Vec::new();
-    start_values(fmu, &mut findings)?;
-    limits(fmu, &mut findings)?;
-    references(fmu, &mut findings)?;
-    Ok(findings)
+pub(crate) fn probe(findings: &mut Findings<'_>) -> Outcome {
+    start_values(findings)?;
+    limits(findings)?;
+    references(findings)
 }
 
-fn start_values(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), crate::Error> {
+fn start_values(findings: &mut Findings<'_>) -> Outcome {
+    let fmu = findings.fmu;
     let mut instance = experiment::ready(fmu, &experiment::strict())?;
     let mut checked = 0;
     for variable in &fmu.description().variables {
@@ -29,16 +27,24 @@ fn start_values(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), crate::Err
         let found = instance.get_variable(variable)?;
         checked += 1;
         if !same(&found, &expected) {
-            findings
-                .push(Finding::bad(format!("{} starts at {found}, its XML has {expected}", variable.name)));
+            findings.bad(format!("{} starts at {found}, its XML has {expected}", variable.name));
         }
     }
-    findings.push(Finding::good(format!("{checked} start values read back as in the XML")));
+    findings.good(format!("{checked} start values read back as in the XML"));
     Ok(())
 }
 
+/// Whether two values are one; a NaN is itself.
+fn same(a: &Value, b: &Value) -> bool {
+    match (a, b) {
+        (Value::Real(a), Value::Real(b)) => a.to_bits() == b.to_bits() || a == b,
+        (a, b) => a == b,
+    }
+}
+
 /// Inputs, else parameters, with limits: just outside is refused, the instance continues, nothing is written.
-fn limits(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), crate::Error> {
+fn limits(findings: &mut Findings<'_>) -> Outcome {
+    let fmu = findings.fmu;
     let mut tried = 0;
     for variable in &fmu.description().variables {
         if tried >= 20 || !Condition::SettableInInitialization.admits(variable, false) {
@@ -59,30 +65,26 @@ fn limits(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), crate::Error> {
         };
         let Some(outside) = outside else { continue };
         tried += 1;
-        let Some(mut instance) = experiment::at(fmu, &experiment::unchecked(), State::InitializationMode)?
-        else {
-            continue;
-        };
+        let mut instance = experiment::at(fmu, &experiment::unchecked(), State::InitializationMode)?;
         let what = format!("{}={outside}, outside its limits", variable.name);
-        findings.push(refused(&what, instance.set_variable(variable, &outside)));
+        findings.refused(&what, instance.set_variable(variable, &outside));
     }
     let real_input = fmu.description().variables.iter().find(|variable| {
         variable.causality == Causality::Input && matches!(variable.kind, VariableKind::Real { .. })
     });
     if let Some(input) = real_input {
-        let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
-        findings.push(refused(
-            &format!("{}=NaN", input.name),
-            instance.set_variable(input, &Value::Real(f64::NAN)),
-        ));
+        let nan = Value::Real(f64::NAN);
+        findings
+            .try_refused(&format!("{}=NaN", input.name), |instance| instance.set_variable(input, &nan))?;
     }
     if tried == 0 {
-        findings.push(Finding::skipped("limits: no variable that can be set has any"));
+        findings.skipped("limits: no variable that can be set has any");
     }
     Ok(())
 }
 
-fn references(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), crate::Error> {
+fn references(findings: &mut Findings<'_>) -> Outcome {
+    let fmu = findings.fmu;
     let [reals, ..] = experiment::references(fmu, Causality::Input);
     let unknown = |base: BaseType| {
         let used = fmu.description().variables.iter().filter(|it| it.kind.base_type() == base);
@@ -92,17 +94,12 @@ fn references(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), crate::Error
             .unwrap_or(u32::MAX)
     };
     let no_real = unknown(BaseType::Real);
-    let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
-    findings.push(refused(
-        "reading a Real reference it does not have",
-        instance.get_reals(&[no_real], &mut [0.0]),
-    ));
-    let no_boolean = unknown(BaseType::Boolean);
-    let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
-    findings.push(refused(
-        "reading a Boolean reference it does not have",
-        instance.get_booleans(&[no_boolean], &mut [0]),
-    ));
+    findings.try_refused("reading a Real reference it does not have", |instance| {
+        instance.get_reals(&[no_real], &mut [0.0])
+    })?;
+    findings.try_refused("reading a Boolean reference it does not have", |instance| {
+        instance.get_booleans(&[unknown(BaseType::Boolean)], &mut [0])
+    })?;
     if let Some(&known) = reals.first() {
         let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
         let mut before = [0.0];
@@ -110,43 +107,42 @@ fn references(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), crate::Error
         let value = before[0] + 1e-3;
         let outcome = instance.set_reals(&[known, no_real], &[value, 1.0]);
         let was_refused = outcome.is_err();
-        findings.push(refused("a vector to set with one reference it does not have", outcome));
+        findings.refused("a vector to set with one reference it does not have", outcome);
         let mut after = [0.0];
         if was_refused && instance.get_reals(&[known], &mut after).is_ok() {
             let text = "a refused vector leaves nothing written";
-            findings.push(if after[0].to_bits() == before[0].to_bits() {
-                Finding::good(text)
+            if after[0].to_bits() == before[0].to_bits() {
+                findings.good(text);
             } else {
-                Finding::note(format!("not so: {text}: the first element is {}", after[0]))
-            });
+                findings.note(format!("not so: {text}: the first element is {}", after[0]));
+            }
         }
     }
     let constant = fmu.description().variables.iter().find(|it| it.variability == Variability::Constant);
     if let Some((constant, value)) = constant.and_then(|it| Some((it, start(it)?))) {
-        let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
-        findings.push(refused("setting a constant", instance.set_variable(constant, &value)));
+        findings.try_refused("setting a constant", |instance| instance.set_variable(constant, &value))?;
     }
     Ok(())
 }
 
 /// Derivatives of inputs and outputs, and directional ones.
-pub(crate) fn derivatives(fmu: &Fmu) -> Findings {
+pub(crate) fn derivatives(findings: &mut Findings<'_>) -> Outcome {
+    let fmu = findings.fmu;
     let flags = fmu.co_simulation()?;
     let inputs = experiment::continuous(fmu, Causality::Input);
     let outputs = experiment::continuous(fmu, Causality::Output);
-    let mut findings = Vec::new();
     match inputs.first() {
         Some(&input) if flags.can_interpolate_inputs => {
             let mut instance = experiment::ready(fmu, &experiment::strict())?;
             let outcome = instance
                 .set_input_derivatives(&[input, input], &[1, 2], &[1e-9, 0.0])
                 .and_then(|()| experiment::simulate(&mut instance, 0, 2));
-            findings.push(verdict("takes first and second input derivatives and steps on", outcome));
-            let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
-            let outcome = instance.set_input_derivatives(&[input], &[0], &[1.0]);
-            findings.push(refused("an input derivative of order 0", outcome));
+            findings.done("takes first and second input derivatives and steps on", outcome);
+            findings.try_refused("an input derivative of order 0", |instance| {
+                instance.set_input_derivatives(&[input], &[0], &[1.0])
+            })?;
         }
-        _ => findings.push(Finding::skipped("input derivatives: not claimed, or no continuous Real input")),
+        _ => findings.skipped("input derivatives: not claimed, or no continuous Real input"),
     }
     match outputs.first() {
         Some(_) if flags.max_output_derivative_order > 0 => {
@@ -159,44 +155,44 @@ pub(crate) fn derivatives(fmu: &Fmu) -> Findings {
             let outcome = instance.get_output_derivatives(&outputs, &orders, &mut values);
             let claim = format!("gives output derivatives of order {order}");
             let warning = instance.take_messages().into_iter().find(|it| it.status == Status::Warning);
-            findings.push(match warning {
-                Some(warning) => Finding::bad(format!("not so: {claim}: {}", warning.text)),
-                None => verdict(&claim, outcome),
-            });
+            match warning {
+                Some(warning) => findings.bad(format!("not so: {claim}: {}", warning.text)),
+                None => findings.done(&claim, outcome),
+            }
             let finite = values.iter().all(|value| value.is_finite());
-            findings.push(Finding::expect(finite, "every output derivative is finite"));
+            findings.expect(finite, "every output derivative is finite");
             let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
             experiment::simulate(&mut instance, 0, 1)?;
             let outcome = instance.get_output_derivatives(&outputs[..1], &[0], &mut [0.0]);
-            findings.push(refused("an output derivative of order 0", outcome));
+            findings.refused("an output derivative of order 0", outcome);
         }
-        _ => findings.push(Finding::skipped("output derivatives: not claimed, or no continuous Real output")),
+        _ => findings.skipped("output derivatives: not claimed, or no continuous Real output"),
     }
     if flags.provides_directional_derivative && !inputs.is_empty() && !outputs.is_empty() {
         let mut instance = experiment::ready(fmu, &experiment::strict())?;
-        directional(&mut instance, &outputs, &inputs, &mut findings)?;
+        directional(findings, &mut instance, &outputs, &inputs)
     } else {
-        findings.push(Finding::skipped("directional derivatives: not claimed"));
+        findings.skipped("directional derivatives: not claimed");
+        Ok(())
     }
-    Ok(findings)
 }
 
 fn directional(
+    findings: &mut Findings<'_>,
     instance: &mut Instance,
     outputs: &[u32],
     inputs: &[u32],
-    findings: &mut Vec<Finding>,
-) -> Result<(), crate::Error> {
+) -> Outcome {
     let mut result = vec![f64::NAN; outputs.len()];
     for (index, _) in inputs.iter().enumerate() {
         let mut seed = vec![0.0; inputs.len()];
         seed[index] = 1.0;
         instance.directional_derivative(outputs, inputs, &seed, &mut result)?;
         if let Some(position) = result.iter().position(|value| !value.is_finite()) {
-            findings.push(Finding::bad(format!(
+            findings.bad(format!(
                 "d(reference {})/d(reference {}) is {}",
                 outputs[position], inputs[index], result[position]
-            )));
+            ));
         }
     }
     // The derivative is linear in its seed.
@@ -206,6 +202,6 @@ fn directional(
     instance.directional_derivative(outputs, inputs, &ones, &mut result)?;
     instance.directional_derivative(outputs, inputs, &twos, &mut doubled)?;
     let linear = result.iter().zip(&doubled).all(|(one, two)| (2.0 * one - two).abs() <= 1e-9 * two.abs());
-    findings.push(Finding::expect(linear, "directional derivatives are finite and linear in their seed"));
+    findings.expect(linear, "directional derivatives are finite and linear in their seed");
     Ok(())
 }
