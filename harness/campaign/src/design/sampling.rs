@@ -82,14 +82,15 @@ impl Sampling {
             Self::LatinHypercube => MAX_STRATA / (varied.len() as u64).max(1),
             _ => MAX_RUNS,
         };
+        let count = given.or(own);
         let refused = |allowed: String| {
-            let found = given.map_or_else(|| "no `runs`".to_owned(), |found| format!("{found} runs"));
+            let found = count.map_or_else(|| "no `runs`".to_owned(), |found| format!("{found} runs"));
             Err(DesignError::new(DesignPart::Runs, format!("found {found}, allowed: {allowed}")))
         };
         if let Some(own) = own.filter(|own| given.is_some_and(|given| given != *own)) {
             return refused(format!("{own}, which sampling {} has, or no `runs`", self.key()));
         }
-        let runs = own.or(given).unwrap_or(0);
+        let runs = count.unwrap_or(0);
         if !(1..=most).contains(&runs) {
             return refused(format!("1 to {most} with sampling {}", self.key()));
         }

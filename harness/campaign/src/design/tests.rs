@@ -141,6 +141,9 @@ fn grids_have_every_combination_and_one_at_a_time_its_own() {
     assert_eq!(refused.to_string(), "found a as normal with sampling grid, allowed: values and steps");
     let refused = Design::new(all, (Sampling::Grid, Some(7)), &[], 0).unwrap_err();
     assert!(refused.to_string().contains("found 7 runs, allowed: 6"), "{refused}");
+    let large = ["a", "b", "c"].map(|name| varied(name, Distribution::steps(0.0, 1.0, 1001)));
+    let refused = Design::new(large.to_vec(), (Sampling::Grid, None), &[], 0).unwrap_err();
+    assert!(refused.to_string().starts_with("found 1003003001 runs, allowed: 1 to"), "{refused}");
     let empty = vec![varied("a", Distribution::Values(Vec::new()))];
     assert!(
         Design::new(empty, (Sampling::Grid, None), &[], 0)
